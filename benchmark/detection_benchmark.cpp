@@ -1,0 +1,40 @@
+// Time of each detector on one grey frame.
+#include <benchmark/benchmark.h>
+
+#include "benchmark/frames.h"
+#include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/opencv_edlines.h"
+#include "evolin_ros/detection/opencv_fld.h"
+#include "evolin_ros/detection/opencv_lsd.h"
+
+namespace evolin {
+namespace {
+
+template <typename Detector>
+void detect(benchmark::State& state) {
+  Detector detector;
+  if (!detector.whyUnavailable().empty()) {
+    state.SkipWithError(detector.whyUnavailable().c_str());
+    return;
+  }
+  detector.configure(YAML::Node());
+  const std::vector<Frame> frames = benchmark_frames::load();
+  std::size_t next = 0;
+  std::size_t lines = 0;
+  for (auto _ : state) {
+    lines += detector.detect(frames[next]).size();
+    next = (next + 1) % frames.size();
+  }
+  state.counters["lines"] =
+      benchmark::Counter(static_cast<double>(lines), benchmark::Counter::kAvgIterations);
+}
+
+BENCHMARK_TEMPLATE(detect, OpenCvLsd)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, OpenCvEdLines)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, OpenCvFld)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, HoughP)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace evolin
+
+BENCHMARK_MAIN();

@@ -1,0 +1,27 @@
+// Associates lines by the float line band descriptor (Zhang, Koch 2013).
+#pragma once
+
+#include "evolin_ros/association/line_associator.h"
+
+namespace evolin {
+
+struct LbdParameters {
+  bool cross_check = true;  ///< keep a pair only if each line is the other's nearest
+};
+
+/// Plug-in `lbd`. `distance` of a match is the Euclidean distance of the descriptors (0 to 2).
+/// Lines without length and lines that have no descriptor (see describeLbd) never match. Throws
+/// Error for an image that is not 8-bit grey or BGR and when not configured.
+class LbdAssociator : public LineAssociator {
+ public:
+  void configure(const YAML::Node& parameters) override;
+  LineMatches match(const FrameLines& first, const FrameLines& second) override;
+
+  const LbdParameters& parameters() const { return parameters_; }
+
+ private:
+  LbdParameters parameters_;
+  bool configured_ = false;
+};
+
+}  // namespace evolin

@@ -1,0 +1,20 @@
+// Colour and depth images from files, whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+
+namespace evolin {
+
+/// An 8-bit image: CV_8UC1 when the file is grey, else CV_8UC3 in BGR order (transparency is
+/// dropped, 16-bit colour reduced to 8 bits). Throws ParseError naming the file when it is absent,
+/// empty, no image, or cut off: a PNG without its closing chunk or a JPEG without its end marker,
+/// which decoders would fill up with grey.
+cv::Mat readImage(const std::filesystem::path& file);
+
+/// CV_32FC1 metres from a 16-bit one-channel image that stores metres x `depth_factor`; 0 in the
+/// file means no depth and becomes NaN. Throws ParseError as above, and for an image of another
+/// type.
+cv::Mat readDepthImage(const std::filesystem::path& file, double depth_factor);
+
+}  // namespace evolin

@@ -1,0 +1,104 @@
+// Joins the parts of frames by stamp within one pass over a sequence, scores what is complete and
+// accounts for the rest.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "evolin_ros/evaluation/inputs.h"
+#include "evolin_ros/evaluation/report.h"
+#include "evolin_ros/evaluation/sequence_evaluator.h"
+
+namespace evolin {
+
+struct PassOptions {
+  EvaluationOptions evaluation;
+  /// Frames whose lines are kept while a part is missing, and for the pairs to come.
+  std::size_t buffer = 1000;
+  /// Frames between the two of a pair; only to say how many pairs were to be expected.
+  int frame_step = 1;
+};
+
+/// What one message brought about.
+struct EvaluationUpdate {
+  std::vector<FrameRecord> frames;
+  std::vector<PairRecord> pairs;
+  std::vector<std::string> notes;  ///< new ones, for the log
+  bool new_pass = false;
+
+  void append(EvaluationUpdate other);
+};
+
+/// Parts may come in any order and any time apart, each at most once. Not safe for several threads
+/// at once.
+class PassEvaluation {
+ public:
+  explicit PassEvaluation(PassOptions options = {});
+
+  /// An image was there; its lines are awaited.
+  EvaluationUpdate addImage(Stamp stamp);
+  EvaluationUpdate addLines(LineSet lines);
+  EvaluationUpdate addGroundTruth(LineSet ground_truth);
+  EvaluationUpdate addMatches(MatchSet matches);
+
+  /// The figures so far. With `complete` nothing is waited for any more, and waiting frames are
+  /// counted by what they lack.
+  Report report(bool complete) const;
+
+  /// Frames by state, as report(false) has them, without building a report.
+  const CoverageCounts& coverage() const { return coverage_; }
+
+  /// Whether an image or ground truth is there whose lines have not come, or matches are still due
+  /// for the newest frames.
+  bool waiting() const;
+
+  const SequenceEvaluator& evaluator() const { return evaluator_; }
+
+ private:
+  struct Entry {
+    bool image = false;
+    std::optional<std::uint32_t> number;  ///< order of arrival of its lines
+    std::optional<LineSet> lines;         ///< until evaluated or released
+    std::optional<LineSet> ground_truth;  ///< until released
+    bool released = false;
+    FrameRecord record;
+  };
+  using PairKey = std::pair<Stamp, Stamp>;
+
+  Entry& entryAt(Stamp stamp);
+  void setState(Entry* entry, FrameState state);
+  void evaluateFrame(Entry* entry, EvaluationUpdate* update);
+  void evaluatePairsOf(Stamp stamp, EvaluationUpdate* update);
+  /// True when the pair is settled one way or the other.
+  bool evaluatePair(const MatchSet& matches, EvaluationUpdate* update);
+  void hold(Stamp stamp);
+  void note(const std::string& text, EvaluationUpdate* update);
+  bool betweenDetectedLines(const MatchSet& matches) const;
+
+  PassOptions options_;
+  SequenceEvaluator evaluator_;
+  std::map<Stamp, Entry> entries_;
+  std::set<Stamp> held_;  ///< entries that hold lines or ground truth
+  std::map<PairKey, MatchSet> pending_pairs_;
+  std::vector<PairRecord> pair_records_;
+  PairCounts pair_counts_;
+  CoverageCounts coverage_;
+  std::vector<double> detector_times_;
+  std::vector<double> associator_times_;
+  std::vector<std::string> notes_;
+  std::size_t notes_left_out_ = 0;
+  std::uint32_t lines_seen_ = 0;
+  std::size_t ground_truth_seen_ = 0;
+  std::optional<Stamp> newest_matches_;
+  std::string lines_source_;
+  std::string ground_truth_source_;
+  std::string matches_source_;
+  std::string matches_lines_source_;
+};
+
+}  // namespace evolin

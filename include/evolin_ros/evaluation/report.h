@@ -1,0 +1,145 @@
+// Everything that an evaluation found, as plain values, and its forms on disk.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evolin_ros/base/stamp.h"
+#include "evolin_ros/metrics/classification.h"
+#include "evolin_ros/metrics/protocol.h"
+#include "evolin_ros/metrics/vectorized.h"
+
+namespace evolin {
+
+/// What became of a frame.
+enum class FrameState {
+  kWaiting,  ///< a part may still come
+  kEvaluated,
+  kUnmatched,  ///< the detector's lines never came
+  kDropped,    ///< a part came after the frame had to leave the full buffer
+  kNoGroundTruth,
+  kBadGroundTruth,
+  kSkipped  ///< a message was unusable; a note says why
+};
+
+/// "evaluated", "no_ground_truth", ... as in Coverage.msg.
+std::string toString(FrameState state);
+
+/// Frames by state; seen is the sum of all others.
+struct CoverageCounts {
+  std::size_t seen = 0;
+  std::size_t waiting = 0;
+  std::size_t evaluated = 0;
+  std::size_t unmatched = 0;
+  std::size_t dropped = 0;
+  std::size_t no_ground_truth = 0;
+  std::size_t bad_ground_truth = 0;
+  std::size_t skipped = 0;
+
+  void add(FrameState state);
+  void remove(FrameState state);
+
+  /// The counter of one state.
+  std::size_t& of(FrameState state);
+};
+
+/// One setting's figures.
+struct DetectionEntry {
+  VectorizedSetting setting;
+  Classification counts;
+  std::optional<double> average_precision;
+};
+
+/// One frame's own figures; `entries` is empty unless it was evaluated.
+struct FrameRecord {
+  Stamp stamp = 0;
+  FrameState state = FrameState::kWaiting;
+  std::optional<std::size_t> lines;         ///< detected
+  std::optional<std::size_t> ground_truth;  ///< annotated
+  double processing_time = 0;               ///< of the detector, s; 0: not measured
+  std::vector<DetectionEntry> entries;
+};
+
+/// One pair's own figures.
+struct PairRecord {
+  Stamp first_stamp = 0;
+  Stamp stamp = 0;
+  double processing_time = 0;  ///< of the associator, s; 0: not measured
+  Classification counts;
+};
+
+/// Pairs of frames by what became of their matches.
+struct PairCounts {
+  std::size_t evaluated = 0;
+  std::size_t detected_lines = 0;   ///< matches between detected lines: another family
+  std::size_t no_ground_truth = 0;  ///< ground truth of one of the two frames is missing (so far)
+  std::size_t bad_ground_truth = 0;
+  std::size_t skipped = 0;  ///< unusable; a note says why
+};
+
+/// Wall time that a method took, frame by frame.
+struct TimingSummary {
+  std::size_t frames = 0;  ///< with a measured time
+  double mean = 0;         ///< seconds, as the next four
+  double median = 0;
+  double p95 = 0;
+  double max = 0;
+  double rate = 0;  ///< frames per second the method could sustain: 1 / mean; 0 without frames
+};
+
+/// `times` in seconds, any order; the percentile is linear between neighbours.
+TimingSummary summarizeTimes(std::vector<double> times);
+
+struct Report {
+  Protocol protocol = Protocol::kEvolin;
+  bool complete = false;  ///< the input came to its end; false: a snapshot on the way
+  int pass = 1;           ///< a jump back in time starts the next
+  std::string lines_source;
+  std::string ground_truth_source;
+  std::string matches_source;
+  std::string matches_lines_source;
+  CoverageCounts coverage;
+  std::size_t detection_frames = 0;
+  bool scored = false;
+  std::vector<DetectionEntry> detection;
+  PairCounts pairs;
+  std::optional<std::size_t>
+      pairs_expected;  ///< from the frames with ground truth and the frame step
+  Classification association;
+  TimingSummary detector_timing;
+  TimingSummary associator_timing;
+  std::vector<FrameRecord> frames;  ///< every frame seen, by stamp
+  std::vector<PairRecord> pair_records;
+  std::vector<std::string>
+      notes;  ///< what the reader must know: bad ground truth, unusable messages
+  /// How the figures came about: JSON texts by key ("parameters", "input", "machine"), embedded as
+  /// they are.
+  std::map<std::string, std::string> provenance;
+};
+
+/// Why there are no association figures; "" when there are.
+std::string whyNoAssociation(const Report& report);
+
+/// Why an entry has no average precision; "" when it has one.
+std::string whyNoAveragePrecision(const Report& report, const DetectionEntry& entry);
+
+/// Strict JSON; what has no value is null with a `reason` beside it.
+std::string toJson(const Report& report);
+
+/// A short table for people.
+std::string toMarkdown(const Report& report);
+
+/// One row a frame, or a pair of frames.
+std::string framesToCsv(const Report& report);
+std::string pairsToCsv(const Report& report);
+
+/// report.json, summary.md, frames.csv and pairs.csv in `folder` (made if missing), each there as a
+/// whole or not at all, report.json last. Returns the path of report.json; throws Error naming the
+/// file.
+std::filesystem::path writeReport(const Report& report, const std::filesystem::path& folder);
+
+}  // namespace evolin

@@ -1,0 +1,65 @@
+// Takes a live stream's parts as they come, tells passes over the sequence apart and evaluates each
+// on its own.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "evolin_ros/evaluation/pass_evaluation.h"
+
+namespace evolin {
+
+/// A stamp that an input has already had in this pass, or one before everything it has had, while
+/// the input's time runs back, is a jump back: that input has begun a new pass. Each input is
+/// followed on its own, because the last parts of a pass may come after another input has begun the
+/// next. A stamp merely out of order is taken where it belongs; a stamp that comes twice in a row
+/// is a duplicate and counts once. The two newest passes are kept. Not safe for several threads at
+/// once.
+class StreamEvaluator {
+ public:
+  explicit StreamEvaluator(PassOptions options = {});
+
+  EvaluationUpdate addImage(Stamp stamp);
+  EvaluationUpdate addLines(LineSet lines);
+  EvaluationUpdate addGroundTruth(LineSet ground_truth);
+  EvaluationUpdate addMatches(MatchSet matches);
+
+  /// Of the newest pass; passes count from 1.
+  Report report(bool complete) const;
+
+  /// Of the pass before it, which is complete; none when the newest is the first.
+  std::optional<Report> previousReport() const;
+
+  /// Of the newest pass, cheap at any number of frames.
+  CoverageCounts coverage() const { return current().coverage(); }
+
+  bool waiting() const;
+  int pass() const { return newest_; }
+  const PassEvaluation& current() const { return passes_.at(newest_); }
+
+  /// Forgets everything, passes included.
+  void reset();
+
+ private:
+  enum Input { kImage, kLines, kGroundTruth, kMatches, kInputs };
+  using Key = std::pair<Stamp, Stamp>;  ///< second stamp, first stamp (0 where there is one only)
+  struct Follower {
+    int pass = 0;  ///< 0: nothing heard
+    Key last;
+    std::set<Key> received;
+  };
+
+  /// The pass that a part belongs to, or none for a duplicate.
+  std::optional<int> passOf(Input input, Key key);
+  PassEvaluation* enter(Input input, Key key, EvaluationUpdate* update);
+
+  PassOptions options_;
+  std::array<Follower, kInputs> followers_;
+  std::map<int, PassEvaluation> passes_;
+  int newest_ = 1;
+};
+
+}  // namespace evolin

@@ -1,0 +1,25 @@
+// Counts of a classification and the precision, recall and F-score that they give.
+#pragma once
+
+#include <cstdint>
+
+namespace evolin {
+
+/// Sums over any number of frames or pairs. Ratios lie in [0, 1] and are 0 where they are
+/// undefined.
+struct Classification {
+  std::uint64_t true_positives = 0;
+  std::uint64_t predicted = 0;     ///< true and false positives
+  std::uint64_t ground_truth = 0;  ///< true positives and misses
+
+  double precision() const;
+  double recall() const;
+  double fScore() const;
+
+  Classification& operator+=(const Classification& other);
+};
+
+/// The counts of `times` copies.
+Classification operator*(const Classification& counts, std::uint64_t times);
+
+}  // namespace evolin

@@ -1,0 +1,6 @@
+// Makes the associators known to pluginlib; plugins/associators.xml names the same classes.
+#include <pluginlib/class_list_macros.hpp>
+
+#include "evolin_ros/association/lbd_associator.h"
+
+PLUGINLIB_EXPORT_CLASS(evolin::LbdAssociator, evolin::LineAssociator)

@@ -1,0 +1,16 @@
+// The metric families of `evaluate`: each takes its own arguments and does the whole job.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace evolin::cli {
+
+/// Detection on segments as vectors. Returns the exit status; throws as Command::run may.
+int evaluateVectorized(const std::vector<std::string>& arguments);
+
+/// Association as a classification of index pairs. Returns the exit status; throws as Command::run
+/// may.
+int evaluateAssociation(const std::vector<std::string>& arguments);
+
+}  // namespace evolin::cli

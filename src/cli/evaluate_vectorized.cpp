@@ -1,0 +1,219 @@
+// `evolin evaluate vectorized`.
+#include <boost/program_options/value_semantic.hpp>
+#include <limits>
+
+#include "evaluate_families.h"
+#include "evaluate_options.h"
+#include "evolin_ros/base/text.h"
+#include "evolin_ros/dataset/csv.h"
+#include "evolin_ros/metrics/vectorized.h"
+#include "file_pairing.h"
+#include "image_size.h"
+#include "options.h"
+#include "parallel.h"
+
+namespace evolin::cli {
+
+namespace po = boost::program_options;
+
+namespace {
+
+constexpr const char* kUsage =
+    "Scores detected lines against true lines as vectors: precision, recall, F-score and, with "
+    "scores, average precision and precision-recall curves, for two distances in pixels of images "
+    "scaled to 128 x 128.\n\n"
+    "Usage: evolin evaluate vectorized --pred-lines DIR --gt-lines DIR --imgs DIR [OPTIONS]";
+
+const std::vector<std::string>& imageExtensions() {
+  static const std::vector<std::string> kExtensions = {".png", ".jpg", ".jpeg", ".bmp", ".pgm",
+                                                       ".ppm", ".tif", ".tiff", ".webp"};
+  return kExtensions;
+}
+
+struct Request {
+  std::string predicted;
+  std::string ground_truth;
+  std::string images;
+  std::string scores;            ///< empty: unscored
+  std::string score_thresholds;  ///< file; empty: none
+  std::vector<double> distance_thresholds = VectorizedOptions().distance_thresholds;
+  EvaluateOptions common;
+};
+
+/// False when only help was wanted.
+bool readRequest(const std::vector<std::string>& arguments, Request* request) {
+  std::string thresholds;
+  for (const double threshold : request->distance_thresholds) {
+    thresholds += (thresholds.empty() ? "" : " ") + formatDouble(threshold);
+  }
+  po::options_description description("Options");
+  description.add_options()("pred-lines,p",
+                            po::value(&request->predicted)->value_name("DIR")->required(),
+                            "predicted lines, one CSV (rows x1,y1,x2,y2 in pixels) a frame")(
+      "gt-lines,g", po::value(&request->ground_truth)->value_name("DIR")->required(),
+      "true lines, under the same names")(
+      "imgs,i", po::value(&request->images)->value_name("DIR")->required(),
+      "images of the same names, for their sizes")(
+      "scores,s", po::value(&request->scores)->value_name("DIR"),
+      "scores of the predicted lines, one CSV (a score a row) a frame")(
+      "score-thresholds,S", po::value(&request->score_thresholds)->value_name("FILE"),
+      "text file of numbers; each gives figures of the lines with a higher score")(
+      "distance-thresholds,d",
+      po::value(&request->distance_thresholds)
+          ->value_name("PX...")
+          ->multitoken()
+          ->default_value(request->distance_thresholds, thresholds),
+      "largest distance of a right line, in scaled pixels; several may follow");
+  addEvaluateOptions("vectorized_classification_metrics.json", &request->common, &description);
+  if (!parseOptions(kUsage, description, arguments)) {
+    return false;
+  }
+  checkEvaluateOptions(request->common);
+  if (!request->score_thresholds.empty() && request->scores.empty()) {
+    throw UsageError(
+        "--score-thresholds needs --scores: without scores there is nothing to filter");
+  }
+  return true;
+}
+
+VectorizedMetrics makeMetrics(const Request& request) {
+  VectorizedOptions options;
+  options.protocol = protocolOf(request.common);
+  options.distance_thresholds = request.distance_thresholds;
+  try {
+    return VectorizedMetrics(options);
+  } catch (const Error& error) {
+    throw UsageError(std::string("--distance-thresholds: ") + error.what());
+  }
+}
+
+/// Reads and scores all frames, spread over threads.
+VectorizedMetrics measure(const Request& request) {
+  const VectorizedMetrics empty = makeMetrics(request);
+  const bool scored = !request.scores.empty();
+  const FileSet truth = listByStem("true lines", request.ground_truth, {".csv"});
+  const FileSet predicted = listByStem("predicted lines", request.predicted, {".csv"});
+  requireSameStems(truth, predicted);
+  FileSet scores;
+  if (scored) {
+    scores = listByStem("scores", request.scores, {".csv"});
+    requireSameStems(predicted, scores);
+  }
+  // More images than annotated frames are usual.
+  const FileSet images = listByStem("image", request.images, imageExtensions());
+  std::vector<std::string> stems;
+  for (const auto& [stem, file] : truth.files) {
+    images.at(stem);
+    stems.push_back(stem);
+  }
+
+  const int workers = threadsFor(request.common, stems.size());
+  std::vector<VectorizedMetrics> parts(static_cast<std::size_t>(workers), empty);
+  forEachTask(stems.size(), workers, [&](std::size_t task, std::size_t worker) {
+    const std::string& stem = stems[task];
+    const LineSegments lines = scored ? readScoredLinesCsv(predicted.at(stem), scores.at(stem))
+                                      : readLinesCsv(predicted.at(stem));
+    parts[worker].addFrame(static_cast<std::uint32_t>(task), stem, readImageSize(images.at(stem)),
+                           lines, readLinesCsv(truth.at(stem)), scored);
+  });
+  VectorizedMetrics metrics = empty;
+  for (const VectorizedMetrics& part : parts) {
+    metrics.merge(part);
+  }
+  return metrics;
+}
+
+PublishedEntry entryFor(const std::string& name, const VectorizedSetting& setting) {
+  PublishedEntry entry;
+  entry.name = name;
+  entry.distance = toString(setting.distance);
+  entry.distance_threshold = setting.threshold;
+  return entry;
+}
+
+double orNan(const std::optional<double>& value) {
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+void addRankingEntries(const VectorizedMetrics& metrics, const EvaluateOptions& options,
+                       std::vector<PublishedEntry>* entries) {
+  const ScoreRanking ranking = metrics.ranking();
+  const std::vector<std::optional<double>> values = ranking.averagePrecisions();
+  const std::vector<ConfidenceInterval> intervals = intervalsFor(
+      options, metrics.frames(), [&ranking](const std::vector<std::uint32_t>& weights) {
+        std::vector<double> figures;
+        for (const std::optional<double>& value : ranking.averagePrecisions(weights)) {
+          figures.push_back(orNan(value));
+        }
+        return figures;
+      });
+  for (std::size_t setting = 0; setting < metrics.settings().size(); ++setting) {
+    PublishedEntry area = entryFor("average_precision", metrics.settings()[setting]);
+    area.value = orNan(values.empty() ? std::nullopt : values[setting]);
+    if (!intervals.empty()) {
+      area.confidence_interval = intervals[setting];
+    }
+    entries->push_back(area);
+    PublishedEntry curve = entryFor("pr_curve", metrics.settings()[setting]);
+    PrecisionRecallCurve points = ranking.curve(setting);
+    curve.value = Curve{std::move(points.recall), std::move(points.precision)};
+    entries->push_back(std::move(curve));
+  }
+}
+
+void addClassificationEntries(const VectorizedMetrics& metrics,
+                              const std::optional<double>& score_threshold,
+                              const EvaluateOptions& options,
+                              std::vector<PublishedEntry>* entries) {
+  for (std::size_t setting = 0; setting < metrics.settings().size(); ++setting) {
+    const std::vector<Classification> frames = metrics.frameClassifications(
+        setting, score_threshold.value_or(-std::numeric_limits<double>::infinity()));
+    const auto figuresOf = [&frames](const std::vector<std::uint32_t>& weights) {
+      Classification counts;
+      for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+        counts += frames[frame] * weights[frame];
+      }
+      return std::vector<double>{counts.precision(), counts.recall(), counts.fScore()};
+    };
+    const std::vector<double> values = figuresOf(std::vector<std::uint32_t>(frames.size(), 1));
+    const std::vector<ConfidenceInterval> intervals =
+        intervalsFor(options, frames.size(), figuresOf);
+    const std::vector<std::string> names = {"precision", "recall", "fscore"};
+    for (std::size_t index = 0; index < names.size(); ++index) {
+      PublishedEntry entry = entryFor(names[index], metrics.settings()[setting]);
+      entry.score_threshold = score_threshold;
+      entry.value = values[index];
+      if (!intervals.empty()) {
+        entry.confidence_interval = intervals[index];
+      }
+      entries->push_back(std::move(entry));
+    }
+  }
+}
+
+}  // namespace
+
+int evaluateVectorized(const std::vector<std::string>& arguments) {
+  Request request;
+  if (!readRequest(arguments, &request)) {
+    return kExitDone;
+  }
+  std::vector<double> score_thresholds;
+  if (!request.score_thresholds.empty()) {
+    score_thresholds = readNumbers(request.score_thresholds);
+  }
+  const VectorizedMetrics metrics = measure(request);
+  std::vector<PublishedEntry> entries;
+  if (request.scores.empty()) {
+    addClassificationEntries(metrics, std::nullopt, request.common, &entries);
+  } else {
+    addRankingEntries(metrics, request.common, &entries);
+    for (const double threshold : score_thresholds) {
+      addClassificationEntries(metrics, threshold, request.common, &entries);
+    }
+  }
+  deliverResults(request.common, entries);
+  return kExitDone;
+}
+
+}  // namespace evolin::cli

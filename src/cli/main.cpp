@@ -1,0 +1,14 @@
+// The program `evolin`: the list of its verbs.
+#include "bag_command.h"
+#include "command.h"
+#include "evaluate_command.h"
+#include "list_command.h"
+
+int main(int argc, char** argv) {
+  const std::vector<evolin::cli::Command> commands = {
+      evolin::cli::bagCommand(),
+      evolin::cli::evaluateCommand(),
+      evolin::cli::listCommand(),
+  };
+  return evolin::cli::runProgram(commands, {argv + 1, argv + argc});
+}

@@ -1,0 +1,21 @@
+// Reading a verb's options, the same way everywhere.
+#pragma once
+
+#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/variables_map.hpp>
+#include <string>
+#include <vector>
+
+#include "command.h"
+
+namespace evolin::cli {
+
+/// Reads `arguments` by `options` into the variables that `options` is bound to; "--help" ("-h") is
+/// added. Returns false after printing `usage` and the options to standard output because help was
+/// asked for. Throws UsageError for an unknown option (naming the nearest one), a positional
+/// argument, a missing or malformed value, or a required option that is absent.
+bool parseOptions(const std::string& usage, boost::program_options::options_description options,
+                  const std::vector<std::string>& arguments,
+                  boost::program_options::variables_map* values = nullptr);
+
+}  // namespace evolin::cli

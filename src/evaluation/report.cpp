@@ -1,0 +1,128 @@
+// The reasons and summaries that every form of the report shares, and writing it to disk.
+#include "evolin_ros/evaluation/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "evolin_ros/base/atomic_file.h"
+
+namespace evolin {
+
+namespace {
+
+/// Linear between neighbours; `sorted` is not empty, `fraction` in [0, 1].
+double quantile(const std::vector<double>& sorted, double fraction) {
+  const double place = fraction * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(place));
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+}  // namespace
+
+std::string toString(FrameState state) {
+  switch (state) {
+    case FrameState::kWaiting:
+      return "waiting";
+    case FrameState::kEvaluated:
+      return "evaluated";
+    case FrameState::kUnmatched:
+      return "unmatched";
+    case FrameState::kDropped:
+      return "dropped";
+    case FrameState::kNoGroundTruth:
+      return "no_ground_truth";
+    case FrameState::kBadGroundTruth:
+      return "bad_ground_truth";
+    case FrameState::kSkipped:
+      break;
+  }
+  return "skipped";
+}
+
+std::size_t& CoverageCounts::of(FrameState state) {
+  switch (state) {
+    case FrameState::kWaiting:
+      return waiting;
+    case FrameState::kEvaluated:
+      return evaluated;
+    case FrameState::kUnmatched:
+      return unmatched;
+    case FrameState::kDropped:
+      return dropped;
+    case FrameState::kNoGroundTruth:
+      return no_ground_truth;
+    case FrameState::kBadGroundTruth:
+      return bad_ground_truth;
+    case FrameState::kSkipped:
+      break;
+  }
+  return skipped;
+}
+
+void CoverageCounts::add(FrameState state) {
+  ++seen;
+  ++of(state);
+}
+
+void CoverageCounts::remove(FrameState state) {
+  --seen;
+  --of(state);
+}
+
+TimingSummary summarizeTimes(std::vector<double> times) {
+  TimingSummary summary;
+  summary.frames = times.size();
+  if (times.empty()) {
+    return summary;
+  }
+  std::sort(times.begin(), times.end());
+  summary.mean =
+      std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
+  summary.median = quantile(times, 0.5);
+  summary.p95 = quantile(times, 0.95);
+  summary.max = times.back();
+  summary.rate = 1 / summary.mean;
+  return summary;
+}
+
+std::string whyNoAssociation(const Report& report) {
+  if (report.pairs.evaluated > 0) {
+    return {};
+  }
+  if (report.matches_source.empty()) {
+    return "not evaluated: no matches were received";
+  }
+  if (report.pairs.detected_lines > 0) {
+    return "not evaluated: detected lines";
+  }
+  if (report.pairs.skipped + report.pairs.bad_ground_truth > 0) {
+    return "not evaluated: no usable pair, see the notes";
+  }
+  return "not evaluated: no ground truth for the matched frames";
+}
+
+std::string whyNoAveragePrecision(const Report& report, const DetectionEntry& entry) {
+  if (entry.average_precision) {
+    return {};
+  }
+  if (report.detection_frames == 0) {
+    return "no frame was evaluated";
+  }
+  if (entry.counts.predicted == 0) {
+    return "no lines were detected";
+  }
+  return report.scored ? "no lines are annotated" : "the lines carry no scores";
+}
+
+std::filesystem::path writeReport(const Report& report, const std::filesystem::path& folder) {
+  writeFileAtomically(folder / "frames.csv", framesToCsv(report));
+  writeFileAtomically(folder / "pairs.csv", pairsToCsv(report));
+  writeFileAtomically(folder / "summary.md", toMarkdown(report));
+  const std::filesystem::path file = folder / "report.json";
+  writeFileAtomically(file, toJson(report));
+  return file;
+}
+
+}  // namespace evolin

@@ -1,0 +1,122 @@
+// The report as strict JSON: no NaN, no infinity; null has a reason beside it.
+#include <nlohmann/json.hpp>
+
+#include "evolin_ros/base/version.h"
+#include "evolin_ros/evaluation/report.h"
+
+namespace evolin {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json countsJson(const Classification& counts) {
+  return {{"true_positives", counts.true_positives},
+          {"predicted", counts.predicted},
+          {"ground_truth", counts.ground_truth}};
+}
+
+void addRatios(Json* object, const Classification& counts) {
+  (*object)["precision"] = counts.precision();
+  (*object)["recall"] = counts.recall();
+  (*object)["f_score"] = counts.fScore();
+}
+
+Json coverageJson(const CoverageCounts& coverage) {
+  return {{"seen", coverage.seen},
+          {"evaluated", coverage.evaluated},
+          {"waiting", coverage.waiting},
+          {"unmatched", coverage.unmatched},
+          {"dropped", coverage.dropped},
+          {"no_ground_truth", coverage.no_ground_truth},
+          {"bad_ground_truth", coverage.bad_ground_truth},
+          {"skipped", coverage.skipped}};
+}
+
+Json detectionJson(const Report& report) {
+  Json entries = Json::array();
+  for (const DetectionEntry& entry : report.detection) {
+    Json row = {{"distance", toString(entry.setting.distance)},
+                {"threshold", entry.setting.threshold}};
+    if (report.detection_frames > 0) {
+      addRatios(&row, entry.counts);
+    } else {
+      row["precision"] = row["recall"] = row["f_score"] = nullptr;
+    }
+    if (entry.average_precision) {
+      row["average_precision"] = *entry.average_precision;
+    } else {
+      row["average_precision"] = nullptr;
+      row["reason"] = whyNoAveragePrecision(report, entry);
+    }
+    row["counts"] = countsJson(entry.counts);
+    entries.push_back(std::move(row));
+  }
+  return {{"source", report.lines_source},
+          {"ground_truth", report.ground_truth_source},
+          {"frames", report.detection_frames},
+          {"scored", report.scored},
+          {"entries", std::move(entries)}};
+}
+
+Json associationJson(const Report& report) {
+  Json object = {{"source", report.matches_source},
+                 {"lines_source", report.matches_lines_source},
+                 {"pairs", report.pairs.evaluated}};
+  object["pairs_expected"] = report.pairs_expected ? Json(*report.pairs_expected) : Json(nullptr);
+  if (report.pairs.evaluated > 0) {
+    addRatios(&object, report.association);
+  } else {
+    object["precision"] = object["recall"] = object["f_score"] = nullptr;
+    object["reason"] = whyNoAssociation(report);
+  }
+  object["counts"] = countsJson(report.association);
+  object["not_evaluated"] = {{"detected_lines", report.pairs.detected_lines},
+                             {"no_ground_truth", report.pairs.no_ground_truth},
+                             {"bad_ground_truth", report.pairs.bad_ground_truth},
+                             {"skipped", report.pairs.skipped}};
+  return object;
+}
+
+Json timingJson(const TimingSummary& timing) {
+  if (timing.frames == 0) {
+    return {{"frames", 0},
+            {"latency_ms", nullptr},
+            {"rate_hz", nullptr},
+            {"reason", "no message carried a processing time"}};
+  }
+  constexpr double kMilliseconds = 1000;
+  return {{"frames", timing.frames},
+          {"latency_ms",
+           {{"mean", timing.mean * kMilliseconds},
+            {"median", timing.median * kMilliseconds},
+            {"p95", timing.p95 * kMilliseconds},
+            {"max", timing.max * kMilliseconds}}},
+          {"rate_hz", timing.rate}};
+}
+
+}  // namespace
+
+std::string toJson(const Report& report) {
+  Json root = {{"program", programVersion()},
+               {"protocol", toString(report.protocol)},
+               {"complete", report.complete},
+               {"pass", report.pass},
+               {"coverage", coverageJson(report.coverage)},
+               {"detection", detectionJson(report)},
+               {"association", associationJson(report)},
+               {"timing",
+                {{"detector", timingJson(report.detector_timing)},
+                 {"associator", timingJson(report.associator_timing)}}},
+               {"notes", report.notes}};
+  Json provenance = Json::object();
+  for (const auto& [key, text] : report.provenance) {
+    // Texts come from outside; what is no JSON is kept as a string rather than lost.
+    Json value = Json::parse(text, nullptr, false);
+    provenance[key] = value.is_discarded() ? Json(text) : std::move(value);
+  }
+  root["provenance"] = std::move(provenance);
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace evolin

@@ -1,0 +1,172 @@
+// The report as a Markdown summary and as CSV tables.
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+#include "evolin_ros/base/text.h"
+#include "evolin_ros/base/version.h"
+#include "evolin_ros/evaluation/report.h"
+
+namespace evolin {
+
+namespace {
+
+std::string percent(double ratio) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(1) << 100 * ratio;
+  return text.str();
+}
+
+std::string milliseconds(double seconds) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(2) << 1000 * seconds;
+  return text.str();
+}
+
+std::string settingName(const VectorizedSetting& setting) {
+  return toString(setting.distance) + " " + formatDouble(setting.threshold);
+}
+
+std::string csvName(const VectorizedSetting& setting) {
+  return toString(setting.distance) + "_" + formatDouble(setting.threshold);
+}
+
+std::string ratios(const Classification& counts) {
+  return percent(counts.precision()) + " | " + percent(counts.recall()) + " | " +
+         percent(counts.fScore());
+}
+
+std::string timingRow(const std::string& name, const TimingSummary& timing) {
+  if (timing.frames == 0) {
+    return "| " + name + " | - | - | - | 0 |\n";
+  }
+  std::ostringstream rate;
+  rate.imbue(std::locale::classic());
+  rate << std::fixed << std::setprecision(1) << timing.rate;
+  return "| " + name + " | " + milliseconds(timing.median) + " | " + milliseconds(timing.p95) +
+         " | " + rate.str() + " | " + std::to_string(timing.frames) + " |\n";
+}
+
+std::string coverageLine(const Report& report) {
+  const CoverageCounts& coverage = report.coverage;
+  std::string text = std::to_string(coverage.evaluated) + " of " + std::to_string(coverage.seen) +
+                     " frames evaluated";
+  const std::pair<const char*, std::size_t> reasons[] = {
+      {"still waiting", coverage.waiting},
+      {"without detected lines (unmatched)", coverage.unmatched},
+      {"dropped from the full buffer", coverage.dropped},
+      {"without ground truth", coverage.no_ground_truth},
+      {"with bad ground truth", coverage.bad_ground_truth},
+      {"skipped", coverage.skipped}};
+  for (const auto& [name, count] : reasons) {
+    if (count > 0) {
+      text += "; " + std::to_string(count) + " " + name;
+    }
+  }
+  return text + ".";
+}
+
+std::string associationSection(const Report& report) {
+  std::string text = "\n## Association";
+  if (!report.matches_source.empty()) {
+    text += ": " + report.matches_source + " on lines of " + report.matches_lines_source;
+  }
+  text += "\n\n";
+  if (report.pairs.evaluated == 0) {
+    return text + whyNoAssociation(report) + "\n";
+  }
+  text += "| precision | recall | F | pairs |\n| ---: | ---: | ---: | ---: |\n| " +
+          ratios(report.association) + " | " + std::to_string(report.pairs.evaluated);
+  if (report.pairs_expected) {
+    text += " of " + std::to_string(*report.pairs_expected);
+  }
+  return text + " |\n";
+}
+
+}  // namespace
+
+std::string toMarkdown(const Report& report) {
+  std::string text = "# Evaluation of " +
+                     (report.lines_source.empty() ? "no lines" : report.lines_source) + "\n\n" +
+                     programVersion() + ", protocol `" + toString(report.protocol) + "`, pass " +
+                     std::to_string(report.pass) +
+                     (report.complete ? "" : ", a snapshot before the end of the input") +
+                     ". Ratios in percent.\n\n" + coverageLine(report) + "\n\n## Detection\n\n";
+  if (report.detection_frames == 0) {
+    text += "not evaluated: no frame had both lines and ground truth\n";
+  } else {
+    text +=
+        "| distance | precision | recall | F | average precision |\n"
+        "| --- | ---: | ---: | ---: | ---: |\n";
+    for (const DetectionEntry& entry : report.detection) {
+      text += "| " + settingName(entry.setting) + " | " + ratios(entry.counts) + " | " +
+              (entry.average_precision ? percent(*entry.average_precision)
+                                       : whyNoAveragePrecision(report, entry)) +
+              " |\n";
+    }
+  }
+  text += associationSection(report);
+  text +=
+      "\n## Time\n\n| | median ms | 95 % ms | frames/s | frames |\n"
+      "| --- | ---: | ---: | ---: | ---: |\n";
+  text += timingRow("detector", report.detector_timing);
+  text += timingRow("associator", report.associator_timing);
+  if (!report.notes.empty()) {
+    text += "\n## Notes\n\n";
+    for (const std::string& note : report.notes) {
+      text += "- " + note + "\n";
+    }
+  }
+  return text;
+}
+
+std::string framesToCsv(const Report& report) {
+  std::string text = "stamp,state,lines,ground_truth,detector_ms";
+  for (const DetectionEntry& entry : report.detection) {
+    const std::string name = csvName(entry.setting);
+    for (const char* figure : {"_true_positives", "_predicted", "_precision", "_recall", "_f_score",
+                               "_average_precision"}) {
+      text += "," + name + figure;
+    }
+  }
+  text += "\n";
+  for (const FrameRecord& frame : report.frames) {
+    text += formatStamp(frame.stamp) + "," + toString(frame.state) + "," +
+            (frame.lines ? std::to_string(*frame.lines) : "") + "," +
+            (frame.ground_truth ? std::to_string(*frame.ground_truth) : "") + "," +
+            (frame.processing_time > 0 ? milliseconds(frame.processing_time) : "");
+    for (std::size_t i = 0; i < report.detection.size(); ++i) {
+      if (i >= frame.entries.size()) {
+        text += ",,,,,,";
+        continue;
+      }
+      const DetectionEntry& entry = frame.entries[i];
+      text += "," + std::to_string(entry.counts.true_positives) + "," +
+              std::to_string(entry.counts.predicted) + "," +
+              formatDouble(entry.counts.precision()) + "," + formatDouble(entry.counts.recall()) +
+              "," + formatDouble(entry.counts.fScore()) + "," +
+              (entry.average_precision ? formatDouble(*entry.average_precision) : "");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string pairsToCsv(const Report& report) {
+  std::string text =
+      "first_stamp,stamp,true_positives,predicted,ground_truth,precision,recall,f_score,"
+      "associator_ms\n";
+  for (const PairRecord& pair : report.pair_records) {
+    text += formatStamp(pair.first_stamp) + "," + formatStamp(pair.stamp) + "," +
+            std::to_string(pair.counts.true_positives) + "," +
+            std::to_string(pair.counts.predicted) + "," + std::to_string(pair.counts.ground_truth) +
+            "," + formatDouble(pair.counts.precision()) + "," + formatDouble(pair.counts.recall()) +
+            "," + formatDouble(pair.counts.fScore()) + "," +
+            (pair.processing_time > 0 ? milliseconds(pair.processing_time) : "") + "\n";
+  }
+  return text;
+}
+
+}  // namespace evolin

@@ -1,0 +1,84 @@
+// Per-frame figures are those of an accumulator that holds just that frame.
+#include "evolin_ros/evaluation/sequence_evaluator.h"
+
+#include <algorithm>
+
+#include "evolin_ros/base/error.h"
+
+namespace evolin {
+
+namespace {
+
+std::string sizeText(const LineSet& set) {
+  return std::to_string(set.width) + "x" + std::to_string(set.height);
+}
+
+std::vector<DetectionEntry> entriesOf(const VectorizedMetrics& metrics) {
+  const auto precisions = metrics.averagePrecisions();
+  std::vector<DetectionEntry> entries;
+  for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
+    entries.push_back({metrics.settings()[i], metrics.classification(i), precisions[i]});
+  }
+  return entries;
+}
+
+}  // namespace
+
+SequenceEvaluator::SequenceEvaluator(EvaluationOptions options)
+    : options_(std::move(options)), detection_(options_.vectorized) {}
+
+FrameRecord SequenceEvaluator::addFrame(std::uint32_t number, const LineSet& lines,
+                                        const LineSet& ground_truth) {
+  const std::string name = formatStamp(lines.stamp);
+  if (lines.width <= 0 || lines.height <= 0) {
+    throw Error("lines of frame " + name + ": image size " + sizeText(lines) +
+                ", expected the size of the image that they were detected in");
+  }
+  if (lines.width != ground_truth.width || lines.height != ground_truth.height) {
+    throw Error("frame " + name + ": lines are of an image of " + sizeText(lines) +
+                ", ground truth of one of " + sizeText(ground_truth));
+  }
+  VectorizedMetrics frame(options_.vectorized);
+  frame.addFrame(number, name, {lines.width, lines.height}, lines.lines, ground_truth.lines,
+                 lines.scored);
+  detection_.merge(frame);
+
+  FrameRecord record;
+  record.stamp = lines.stamp;
+  record.state = FrameState::kEvaluated;
+  record.lines = lines.lines.size();
+  record.ground_truth = ground_truth.lines.size();
+  record.processing_time = lines.processing_time;
+  record.entries = entriesOf(frame);
+  return record;
+}
+
+PairRecord SequenceEvaluator::addPair(const MatchSet& matches, const LineSegments& first,
+                                      const LineSegments& second) {
+  for (const LineMatch& match : matches.matches) {
+    if (match.first >= first.size() || match.second >= second.size()) {
+      throw Error("matches of " + formatStamp(matches.first_stamp) + " and " +
+                  formatStamp(matches.stamp) + ": pair (" + std::to_string(match.first) + ", " +
+                  std::to_string(match.second) + ") is beyond the " + std::to_string(first.size()) +
+                  " and " + std::to_string(second.size()) + " lines of these frames");
+    }
+  }
+  PairRecord record;
+  record.first_stamp = matches.first_stamp;
+  record.stamp = matches.stamp;
+  record.processing_time = matches.processing_time;
+  record.counts =
+      association_.addPair(toIndexPairs(matches.matches), pairsOfEqualIds(first, second));
+  return record;
+}
+
+std::vector<DetectionEntry> SequenceEvaluator::detectionEntries() const {
+  return entriesOf(detection_);
+}
+
+void SequenceEvaluator::reset() {
+  detection_.reset();
+  association_.reset();
+}
+
+}  // namespace evolin

@@ -1,0 +1,99 @@
+// The rules that tell a loop from a late or repeated message.
+#include "evolin_ros/evaluation/stream_evaluator.h"
+
+#include <algorithm>
+
+namespace evolin {
+
+StreamEvaluator::StreamEvaluator(PassOptions options) : options_(std::move(options)) {
+  passes_.emplace(newest_, PassEvaluation(options_));
+}
+
+std::optional<int> StreamEvaluator::passOf(Input input, Key key) {
+  Follower& follower = followers_[input];
+  if (follower.pass == 0) {
+    follower.pass = newest_;
+  } else if (key == follower.last) {
+    return std::nullopt;
+  } else if (key < follower.last) {
+    const bool seen_before = follower.received.count(key) != 0;
+    const bool before_all = key < *follower.received.begin();
+    if (seen_before || before_all) {
+      // An input that slept through a whole pass must not lag behind for ever.
+      follower.pass = std::max(follower.pass + 1, newest_ - 1);
+      follower.received.clear();
+    }
+  }
+  follower.last = key;
+  follower.received.insert(key);
+  return follower.pass;
+}
+
+PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* update) {
+  const std::optional<int> pass = passOf(input, key);
+  if (!pass) {
+    return nullptr;
+  }
+  if (*pass > newest_) {
+    newest_ = *pass;
+    update->new_pass = true;
+    passes_.emplace(newest_, PassEvaluation(options_));
+    passes_.erase(passes_.begin(), passes_.lower_bound(newest_ - 1));
+  }
+  const auto found = passes_.find(*pass);
+  return found == passes_.end() ? nullptr : &found->second;
+}
+
+EvaluationUpdate StreamEvaluator::addImage(Stamp stamp) {
+  EvaluationUpdate update;
+  if (PassEvaluation* pass = enter(kImage, {stamp, 0}, &update)) {
+    update.append(pass->addImage(stamp));
+  }
+  return update;
+}
+
+EvaluationUpdate StreamEvaluator::addLines(LineSet lines) {
+  EvaluationUpdate update;
+  if (PassEvaluation* pass = enter(kLines, {lines.stamp, 0}, &update)) {
+    update.append(pass->addLines(std::move(lines)));
+  }
+  return update;
+}
+
+EvaluationUpdate StreamEvaluator::addGroundTruth(LineSet ground_truth) {
+  EvaluationUpdate update;
+  if (PassEvaluation* pass = enter(kGroundTruth, {ground_truth.stamp, 0}, &update)) {
+    update.append(pass->addGroundTruth(std::move(ground_truth)));
+  }
+  return update;
+}
+
+EvaluationUpdate StreamEvaluator::addMatches(MatchSet matches) {
+  EvaluationUpdate update;
+  if (PassEvaluation* pass = enter(kMatches, {matches.stamp, matches.first_stamp}, &update)) {
+    update.append(pass->addMatches(std::move(matches)));
+  }
+  return update;
+}
+
+Report StreamEvaluator::report(bool complete) const {
+  Report report = current().report(complete);
+  report.pass = newest_;
+  return report;
+}
+
+std::optional<Report> StreamEvaluator::previousReport() const {
+  const auto found = passes_.find(newest_ - 1);
+  if (found == passes_.end()) {
+    return std::nullopt;
+  }
+  Report report = found->second.report(true);
+  report.pass = newest_ - 1;
+  return report;
+}
+
+bool StreamEvaluator::waiting() const { return current().waiting(); }
+
+void StreamEvaluator::reset() { *this = StreamEvaluator(options_); }
+
+}  // namespace evolin

@@ -1,0 +1,13 @@
+// Interpolation between rigid motions.
+#include "evolin_ros/geometry/pose.h"
+
+namespace evolin {
+
+Pose interpolate(const Pose& a, const Pose& b, double fraction) {
+  Pose result;
+  result.rotation = a.rotation.slerp(fraction, b.rotation).normalized();
+  result.translation = (1 - fraction) * a.translation + fraction * b.translation;
+  return result;
+}
+
+}  // namespace evolin

@@ -1,0 +1,95 @@
+// Association as sets of index pairs.
+#include "evolin_ros/metrics/association.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+#include "evolin_ros/base/error.h"
+
+namespace evolin {
+
+namespace {
+
+/// Row of every id >= 0.
+std::unordered_map<std::int64_t, std::size_t> rowsById(const LineSegments& lines,
+                                                       const std::string& frame) {
+  std::unordered_map<std::int64_t, std::size_t> rows;
+  rows.reserve(lines.size());
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    if (lines[row].id < 0) {
+      continue;
+    }
+    const auto [found, inserted] = rows.emplace(lines[row].id, row);
+    if (!inserted) {
+      throw GroundTruthError(frame, row,
+                             "id " + std::to_string(lines[row].id) + " is also that of row " +
+                                 std::to_string(found->second) +
+                                 "; expected one line an id in a frame");
+    }
+  }
+  return rows;
+}
+
+IndexPairs sortedUnique(IndexPairs pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
+IndexPairs pairsOfEqualIds(const LineSegments& first, const LineSegments& second) {
+  rowsById(first, "(first of the pair)");  // only to refuse repeated ids
+  const auto rows = rowsById(second, "(second of the pair)");
+  IndexPairs pairs;
+  for (std::size_t row = 0; row < first.size(); ++row) {
+    const auto found = rows.find(first[row].id);
+    if (found != rows.end()) {
+      pairs.emplace_back(static_cast<std::int64_t>(row), static_cast<std::int64_t>(found->second));
+    }
+  }
+  return pairs;
+}
+
+IndexPairs toIndexPairs(const LineMatches& matches) {
+  IndexPairs pairs;
+  pairs.reserve(matches.size());
+  for (const LineMatch& match : matches) {
+    pairs.emplace_back(match.first, match.second);
+  }
+  return pairs;
+}
+
+Classification classifyAssociation(const IndexPairs& predicted, const IndexPairs& truth) {
+  const IndexPairs true_pairs = sortedUnique(truth);
+  const IndexPairs distinct = sortedUnique(predicted);
+  Classification counts;
+  counts.predicted = predicted.size();
+  counts.ground_truth = truth.size();
+  counts.true_positives = static_cast<std::uint64_t>(
+      std::count_if(distinct.begin(), distinct.end(), [&true_pairs](const IndexPair& pair) {
+        return std::binary_search(true_pairs.begin(), true_pairs.end(), pair);
+      }));
+  return counts;
+}
+
+Classification AssociationMetrics::addPair(const IndexPairs& predicted, const IndexPairs& truth) {
+  const Classification counts = classifyAssociation(predicted, truth);
+  sum_ += counts;
+  ++pairs_;
+  return counts;
+}
+
+void AssociationMetrics::merge(const AssociationMetrics& other) {
+  // Both values are read before either is written, so an accumulator may be merged with itself.
+  const std::size_t pairs = other.pairs_;
+  const Classification sum = other.sum_;
+  sum_ += sum;
+  pairs_ += pairs;
+}
+
+void AssociationMetrics::reset() { *this = AssociationMetrics(); }
+
+}  // namespace evolin

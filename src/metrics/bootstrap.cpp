@@ -1,0 +1,106 @@
+// Circular block bootstrap with percentile intervals.
+#include "evolin_ros/metrics/bootstrap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "evolin_ros/base/error.h"
+#include "evolin_ros/base/text.h"
+
+namespace evolin {
+
+namespace {
+
+void validate(std::size_t frames, const BootstrapOptions& options) {
+  if (frames == 0) {
+    throw Error("bootstrap: no frames to draw from");
+  }
+  if (options.resamples < 1) {
+    throw Error("bootstrap: " + std::to_string(options.resamples) +
+                " resamples; expected at least 1");
+  }
+  if (options.block_length < 0 || static_cast<std::size_t>(options.block_length) > frames) {
+    throw Error("bootstrap: block length " + std::to_string(options.block_length) +
+                "; expected 0 (automatic) to " + std::to_string(frames) + ", the number of frames");
+  }
+  if (!(options.level > 0) || !(options.level < 1)) {
+    throw Error("bootstrap: level " + formatDouble(options.level) +
+                "; expected a number between 0 and 1");
+  }
+}
+
+/// Uniform in [0, count). The standard's distributions differ from library to library.
+std::size_t draw(std::mt19937_64* generator, std::size_t count) {
+  constexpr std::uint64_t kLargest = std::mt19937_64::max();
+  const std::uint64_t excess = (kLargest % count + 1) % count;
+  std::uint64_t value = (*generator)();
+  while (value > kLargest - excess) {
+    value = (*generator)();
+  }
+  return static_cast<std::size_t>(value % count);
+}
+
+std::size_t automaticBlockLength(std::size_t frames) {
+  std::size_t length = 1;
+  while (length * length * length < frames) {
+    ++length;
+  }
+  return length;
+}
+
+/// `values` sorted and not empty.
+double percentile(const std::vector<double>& values, double fraction) {
+  const double position = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(position));
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (position - std::floor(position)) * (values[above] - values[below]);
+}
+
+}  // namespace
+
+std::vector<ConfidenceInterval> blockBootstrap(std::size_t frames, const BootstrapOptions& options,
+                                               const WeightedFigures& figures) {
+  validate(frames, options);
+  const std::size_t block = options.block_length > 0
+                                ? static_cast<std::size_t>(options.block_length)
+                                : automaticBlockLength(frames);
+  std::mt19937_64 generator(options.seed);
+  std::vector<std::vector<double>> samples;  // by figure
+  std::vector<std::uint32_t> weights(frames);
+  for (int resample = 0; resample < options.resamples; ++resample) {
+    std::fill(weights.begin(), weights.end(), 0);
+    for (std::size_t drawn = 0; drawn < frames; drawn += block) {
+      const std::size_t start = draw(&generator, frames);
+      const std::size_t length = std::min(block, frames - drawn);
+      for (std::size_t i = 0; i < length; ++i) {
+        ++weights[(start + i) % frames];
+      }
+    }
+    const std::vector<double> values = figures(weights);
+    samples.resize(values.size());
+    for (std::size_t figure = 0; figure < values.size(); ++figure) {
+      if (!std::isnan(values[figure])) {
+        samples[figure].push_back(values[figure]);
+      }
+    }
+  }
+  std::vector<ConfidenceInterval> intervals;
+  intervals.reserve(samples.size());
+  const double tail = (1 - options.level) / 2;
+  for (std::vector<double>& values : samples) {
+    ConfidenceInterval interval{options.level, std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::quiet_NaN()};
+    if (!values.empty()) {
+      std::sort(values.begin(), values.end());
+      interval.low = percentile(values, tail);
+      interval.high = percentile(values, 1 - tail);
+    }
+    intervals.push_back(interval);
+  }
+  return intervals;
+}
+
+}  // namespace evolin

@@ -1,0 +1,35 @@
+// Ratios of counts.
+#include "evolin_ros/metrics/classification.h"
+
+namespace evolin {
+
+namespace {
+
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+double Classification::precision() const { return ratio(true_positives, predicted); }
+
+double Classification::recall() const { return ratio(true_positives, ground_truth); }
+
+double Classification::fScore() const {
+  const double p = precision();
+  const double r = recall();
+  return p + r > 0 ? 2 * p * r / (p + r) : 0.0;
+}
+
+Classification& Classification::operator+=(const Classification& other) {
+  true_positives += other.true_positives;
+  predicted += other.predicted;
+  ground_truth += other.ground_truth;
+  return *this;
+}
+
+Classification operator*(const Classification& counts, std::uint64_t times) {
+  return {counts.true_positives * times, counts.predicted * times, counts.ground_truth * times};
+}
+
+}  // namespace evolin

@@ -1,0 +1,331 @@
+// Preparing lines, matching predictions with ground truth, and keeping one bit a setting.
+#include "evolin_ros/metrics/vectorized.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "evolin_ros/base/error.h"
+#include "evolin_ros/base/text.h"
+#include "evolin_ros/geometry/clipping.h"
+#include "nearest_line.h"
+
+namespace evolin {
+
+namespace {
+
+constexpr double kScaledSide = 128;
+constexpr std::size_t kMaxSettings = 32;
+constexpr double kNoFilter = -std::numeric_limits<double>::infinity();
+
+LineSegment scaled(const LineSegment& line, ImageSize size) {
+  LineSegment result = line;
+  result.x1 = line.x1 * kScaledSide / size.width;
+  result.y1 = line.y1 * kScaledSide / size.height;
+  result.x2 = line.x2 * kScaledSide / size.width;
+  result.y2 = line.y2 * kScaledSide / size.height;
+  return result;
+}
+
+std::string coordinates(const LineSegment& line) {
+  return formatDouble(line.x1) + "," + formatDouble(line.y1) + "," + formatDouble(line.x2) + "," +
+         formatDouble(line.y2);
+}
+
+LineSegments prepareGroundTruth(const std::string& frame, ImageSize size,
+                                const LineSegments& lines) {
+  // Annotations may touch the outer edge of the first pixels, whose centres are at 0.
+  const double low_x = -0.5 * kScaledSide / size.width;
+  const double low_y = -0.5 * kScaledSide / size.height;
+  LineSegments result;
+  result.reserve(lines.size());
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    const LineSegment& line = lines[row];
+    if (!line.isFinite()) {
+      throw GroundTruthError(frame, row, coordinates(line) + " is not finite");
+    }
+    const LineSegment prepared = scaled(line, size);
+    if (prepared.x1 == prepared.x2 && prepared.y1 == prepared.y2) {
+      throw GroundTruthError(frame, row,
+                             coordinates(line) + " has no length; expected two distinct endpoints");
+    }
+    if (std::max({prepared.x1, prepared.y1, prepared.x2, prepared.y2}) > kScaledSide ||
+        std::min(prepared.x1, prepared.x2) < low_x || std::min(prepared.y1, prepared.y2) < low_y) {
+      throw GroundTruthError(frame, row,
+                             coordinates(line) + " leaves the image of " +
+                                 std::to_string(size.width) + " x " + std::to_string(size.height) +
+                                 " pixels");
+    }
+    result.push_back(prepared);
+  }
+  return result;
+}
+
+/// Scaled predictions by the protocol's rule, without those that it drops.
+LineSegments preparePredictions(const std::string& frame, ImageSize size, const LineSegments& lines,
+                                bool with_scores, Protocol protocol) {
+  const Rectangle clamping{0, 0, kScaledSide - 1, kScaledSide - 1};
+  const Rectangle clipping{0, 0, kScaledSide, kScaledSide};
+  LineSegments result;
+  result.reserve(lines.size());
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    const LineSegment& line = lines[row];
+    if (!line.isFinite()) {
+      throw Error("predicted lines of frame " + frame + ", row " + std::to_string(row) + ": " +
+                  coordinates(line) + " is not finite");
+    }
+    if (with_scores && !line.hasScore()) {
+      throw Error("predicted lines of frame " + frame + ", row " + std::to_string(row) +
+                  ": no score; expected a score for every line or for none");
+    }
+    if (protocol == Protocol::kEvolin) {
+      // The published rule drops every exactly horizontal or vertical line, not only points.
+      const LineSegment clamped = clampToRectangle(scaled(line, size), clamping);
+      if (clamped.x1 != clamped.x2 && clamped.y1 != clamped.y2) {
+        result.push_back(clamped);
+      }
+    } else {
+      const std::optional<LineSegment> clipped = clipToRectangle(scaled(line, size), clipping);
+      if (clipped && !(clipped->x1 == clipped->x2 && clipped->y1 == clipped->y2)) {
+        result.push_back(*clipped);
+      }
+    }
+  }
+  return result;
+}
+
+/// For every ground-truth row the best prediction among those that went to it and are near enough;
+/// sets that prediction's `bit`.
+void markTruePositives(const LineSegments& predictions, const std::vector<NearestLine>& nearest,
+                       double threshold, bool scored, Protocol protocol, std::uint32_t bit,
+                       std::vector<std::int64_t>* best, std::vector<std::uint32_t>* hits) {
+  std::fill(best->begin(), best->end(), -1);
+  for (std::size_t index = 0; index < predictions.size(); ++index) {
+    const NearestLine& found = nearest[index];
+    const bool near_enough =
+        protocol == Protocol::kEvolin ? found.distance < threshold : found.distance <= threshold;
+    if (!near_enough) {
+      continue;
+    }
+    std::int64_t& holder = (*best)[found.row];
+    if (holder < 0 || (scored ? predictions[index].score > predictions[holder].score
+                              : found.distance < nearest[holder].distance)) {
+      holder = static_cast<std::int64_t>(index);
+    }
+  }
+  for (const std::int64_t holder : *best) {
+    if (holder >= 0) {
+      (*hits)[holder] |= bit;
+    }
+  }
+}
+
+/// One word of bits a prediction, in the order of options.distances x options.distance_thresholds.
+std::vector<std::uint32_t> findHits(const LineSegments& predictions,
+                                    const LineSegments& ground_truth, bool scored,
+                                    const VectorizedOptions& options) {
+  const double reach =
+      *std::max_element(options.distance_thresholds.begin(), options.distance_thresholds.end());
+  const bool gate = options.protocol == Protocol::kEvolin;
+  NearestLineSearch search(ground_truth);
+  std::vector<NearestLine> nearest(predictions.size());
+  std::vector<std::int64_t> best(ground_truth.size());
+  std::vector<std::uint32_t> hits(predictions.size(), 0);
+  std::uint32_t bit = 1;
+  for (const LineDistance distance : options.distances) {
+    for (std::size_t index = 0; index < predictions.size(); ++index) {
+      nearest[index] = search.find(distance, predictions[index], reach, gate);
+    }
+    for (const double threshold : options.distance_thresholds) {
+      markTruePositives(predictions, nearest, threshold, scored, options.protocol, bit, &best,
+                        &hits);
+      bit <<= 1U;
+    }
+  }
+  return hits;
+}
+
+}  // namespace
+
+VectorizedMetrics::VectorizedMetrics(VectorizedOptions options) : options_(std::move(options)) {
+  for (const double threshold : options_.distance_thresholds) {
+    if (!(threshold > 0) || !std::isfinite(threshold)) {
+      throw Error("distance threshold " + formatDouble(threshold) +
+                  ": expected a positive, finite number of pixels");
+    }
+  }
+  for (const LineDistance distance : options_.distances) {
+    for (const double threshold : options_.distance_thresholds) {
+      settings_.push_back({distance, threshold});
+    }
+  }
+  if (settings_.empty() || settings_.size() > kMaxSettings) {
+    throw Error(std::to_string(options_.distances.size()) + " distances with " +
+                std::to_string(options_.distance_thresholds.size()) +
+                " thresholds: expected 1 to " + std::to_string(kMaxSettings) + " combinations");
+  }
+}
+
+std::vector<VectorizedMetrics::FrameCount>::const_iterator VectorizedMetrics::findFrame(
+    std::uint32_t number) const {
+  return std::lower_bound(
+      frames_.begin(), frames_.end(), number,
+      [](const FrameCount& frame, std::uint32_t value) { return frame.number < value; });
+}
+
+void VectorizedMetrics::addFrame(std::uint32_t frame_number, const std::string& frame_name,
+                                 ImageSize size, const LineSegments& predicted,
+                                 const LineSegments& ground_truth, bool scored) {
+  if (size.width <= 0 || size.height <= 0) {
+    throw Error("image of frame " + frame_name + ": size " + std::to_string(size.width) + " x " +
+                std::to_string(size.height) + "; expected a positive number of pixels");
+  }
+  if (!predicted.empty() && scored_ && *scored_ != scored) {
+    throw Error(
+        "predicted lines of frame " + frame_name + (scored ? " have" : " lack") +
+        " scores, unlike those of earlier frames; expected scores in all frames or in none");
+  }
+  const auto place = findFrame(frame_number);
+  if (place != frames_.end() && place->number == frame_number) {
+    throw Error("frame " + frame_name + ": its number " + std::to_string(frame_number) +
+                " is taken; expected every frame once");
+  }
+  const LineSegments truth = prepareGroundTruth(frame_name, size, ground_truth);
+  const LineSegments lines =
+      preparePredictions(frame_name, size, predicted, scored, options_.protocol);
+  const std::vector<std::uint32_t> hits = findHits(lines, truth, scored, options_);
+
+  std::vector<Prediction> added;
+  added.reserve(lines.size());
+  for (std::size_t index = 0; index < lines.size(); ++index) {
+    added.push_back({scored ? lines[index].score : kNoScore, frame_number, hits[index]});
+  }
+  predictions_.insert(predictions_.end(), added.begin(), added.end());
+  frames_.insert(place, {frame_number, static_cast<std::uint32_t>(truth.size())});
+  if (!predicted.empty()) {
+    scored_ = scored;
+  }
+}
+
+void VectorizedMetrics::checkFilter(double score_threshold) const {
+  if (scored_.has_value() && !*scored_ && score_threshold != kNoFilter) {
+    throw Error("score threshold " + formatDouble(score_threshold) +
+                ": the predicted lines have no scores to filter by");
+  }
+}
+
+Classification VectorizedMetrics::classification(std::size_t setting,
+                                                 double score_threshold) const {
+  checkFilter(score_threshold);
+  Classification counts;
+  for (const Prediction& prediction : predictions_) {
+    if (score_threshold == kNoFilter || prediction.score > score_threshold) {
+      ++counts.predicted;
+      counts.true_positives += (prediction.hits >> setting) & 1U;
+    }
+  }
+  for (const FrameCount& frame : frames_) {
+    counts.ground_truth += frame.ground_truth;
+  }
+  return counts;
+}
+
+std::vector<Classification> VectorizedMetrics::frameClassifications(std::size_t setting,
+                                                                    double score_threshold) const {
+  checkFilter(score_threshold);
+  std::vector<Classification> counts(frames_.size());
+  for (std::size_t index = 0; index < frames_.size(); ++index) {
+    counts[index].ground_truth = frames_[index].ground_truth;
+  }
+  std::size_t index = 0;
+  for (const Prediction& prediction : predictions_) {
+    if (frames_[index].number != prediction.frame) {
+      index = static_cast<std::size_t>(findFrame(prediction.frame) - frames_.begin());
+    }
+    if (score_threshold == kNoFilter || prediction.score > score_threshold) {
+      ++counts[index].predicted;
+      counts[index].true_positives += (prediction.hits >> setting) & 1U;
+    }
+  }
+  return counts;
+}
+
+std::optional<double> VectorizedMetrics::averagePrecision(std::size_t setting) const {
+  return averagePrecisions().at(setting);
+}
+
+std::vector<std::optional<double>> VectorizedMetrics::averagePrecisions() const {
+  return ranking().averagePrecisions();
+}
+
+PrecisionRecallCurve VectorizedMetrics::curve(std::size_t setting) const {
+  return ranking().curve(setting);
+}
+
+ScoreRanking VectorizedMetrics::ranking() const {
+  std::vector<std::uint32_t> ground_truth;
+  ground_truth.reserve(frames_.size());
+  for (const FrameCount& frame : frames_) {
+    ground_truth.push_back(frame.ground_truth);
+  }
+  std::vector<ScoreRanking::Entry> entries;
+  if (scored()) {
+    std::vector<Prediction> ordered = predictions_;
+    // Rows need no key: a frame's predictions stand in their order, which a stable sort keeps.
+    std::stable_sort(ordered.begin(), ordered.end(), [](const Prediction& a, const Prediction& b) {
+      return a.score != b.score ? a.score > b.score : a.frame < b.frame;
+    });
+    entries.reserve(ordered.size());
+    // Frames are mostly numbered without gaps: then the number less the first is the index.
+    const bool dense = frames_.back().number - frames_.front().number == frames_.size() - 1;
+    for (const Prediction& prediction : ordered) {
+      const auto index =
+          dense ? prediction.frame - frames_.front().number
+                : static_cast<std::uint32_t>(findFrame(prediction.frame) - frames_.begin());
+      entries.push_back({index, prediction.hits});
+    }
+  }
+  return {options_.protocol, settings_.size(), std::move(entries), std::move(ground_truth)};
+}
+
+void VectorizedMetrics::merge(const VectorizedMetrics& other) {
+  if (options_.protocol != other.options_.protocol ||
+      options_.distances != other.options_.distances ||
+      options_.distance_thresholds != other.options_.distance_thresholds) {
+    throw Error("cannot merge detection metrics: protocols, distances or thresholds differ");
+  }
+  if (scored_ && other.scored_ && *scored_ != *other.scored_) {
+    throw Error("cannot merge detection metrics: one has scores and the other has none");
+  }
+  if (!frames_.empty() && !other.frames_.empty() &&
+      frames_.back().number < other.frames_.front().number) {
+    // The way of a live stream: its cost must not grow with the frames already there.
+    frames_.insert(frames_.end(), other.frames_.begin(), other.frames_.end());
+  } else {
+    mergeFrames(other.frames_);
+  }
+  predictions_.insert(predictions_.end(), other.predictions_.begin(), other.predictions_.end());
+  if (other.scored_) {
+    scored_ = other.scored_;
+  }
+}
+
+void VectorizedMetrics::mergeFrames(const std::vector<FrameCount>& others) {
+  std::vector<FrameCount> frames;
+  frames.reserve(frames_.size() + others.size());
+  std::merge(frames_.begin(), frames_.end(), others.begin(), others.end(),
+             std::back_inserter(frames),
+             [](const FrameCount& a, const FrameCount& b) { return a.number < b.number; });
+  const auto twice = std::adjacent_find(
+      frames.begin(), frames.end(),
+      [](const FrameCount& a, const FrameCount& b) { return a.number == b.number; });
+  if (twice != frames.end()) {
+    throw Error("cannot merge detection metrics: frame number " + std::to_string(twice->number) +
+                " occurs in both");
+  }
+  frames_ = std::move(frames);
+}
+
+void VectorizedMetrics::reset() { *this = VectorizedMetrics(options_); }
+
+}  // namespace evolin

@@ -1,0 +1,292 @@
+// Field by field; whatever a message cannot hold is an error, never a silent change.
+#include "conversions.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/distortion_models.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "evolin_ros/base/error.h"
+
+namespace evolin::ros_shell {
+
+namespace {
+
+constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
+
+evolin_ros::Line toMessage(const LineSegment& segment) {
+  evolin_ros::Line line;
+  line.x1 = segment.x1;
+  line.y1 = segment.y1;
+  line.x2 = segment.x2;
+  line.y2 = segment.y2;
+  line.score = segment.score;
+  line.id = segment.id;
+  return line;
+}
+
+LineSegment fromMessage(const evolin_ros::Line& line) {
+  LineSegment segment;
+  segment.x1 = line.x1;
+  segment.y1 = line.y1;
+  segment.x2 = line.x2;
+  segment.y2 = line.y2;
+  segment.score = line.score;
+  segment.id = line.id;
+  return segment;
+}
+
+std_msgs::Header makeHeader(Stamp stamp, const std::string& frame_id) {
+  std_msgs::Header header;
+  header.stamp = toRosTime(stamp);
+  header.frame_id = frame_id;
+  return header;
+}
+
+evolin_ros::ClassificationEntry entryOf(const std::string& name, const Classification& counts) {
+  evolin_ros::ClassificationEntry entry;
+  entry.name = name;
+  entry.threshold = kNotDefined;
+  entry.score_threshold = kNotDefined;
+  entry.precision = counts.precision();
+  entry.recall = counts.recall();
+  entry.f_score = counts.fScore();
+  entry.average_precision = kNotDefined;
+  return entry;
+}
+
+}  // namespace
+
+Stamp fromRos(const ros::Time& time) {
+  return static_cast<Stamp>(time.sec) * kNanosecondsPerSecond + time.nsec;
+}
+
+ros::Time toRosTime(Stamp stamp) {
+  const Stamp seconds = stamp / kNanosecondsPerSecond;
+  if (stamp < 0 || seconds > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error("stamp " + formatStamp(stamp) +
+                " s: ROS 1 holds stamps from 0 to 4294967295.999999999 s");
+  }
+  return ros::Time(static_cast<std::uint32_t>(seconds),
+                   static_cast<std::uint32_t>(stamp % kNanosecondsPerSecond));
+}
+
+std::string withoutLeadingSlash(const std::string& frame_id) {
+  return frame_id.empty() || frame_id.front() != '/' ? frame_id : frame_id.substr(1);
+}
+
+LineSet fromMessage(const evolin_ros::LineArray& message) {
+  LineSet set;
+  set.stamp = fromRos(message.header.stamp);
+  set.frame_id = withoutLeadingSlash(message.header.frame_id);
+  set.source = message.source;
+  set.width = static_cast<int>(message.width);
+  set.height = static_cast<int>(message.height);
+  set.scored = message.has_scores;
+  set.processing_time = message.processing_time.toSec();
+  set.lines.reserve(message.lines.size());
+  for (const evolin_ros::Line& line : message.lines) {
+    set.lines.push_back(fromMessage(line));
+  }
+  return set;
+}
+
+evolin_ros::LineArray toMessage(const LineSet& set) {
+  evolin_ros::LineArray message;
+  message.header = makeHeader(set.stamp, set.frame_id);
+  message.width = static_cast<std::uint32_t>(set.width);
+  message.height = static_cast<std::uint32_t>(set.height);
+  message.source = set.source;
+  message.has_scores = set.scored;
+  message.processing_time = ros::Duration(set.processing_time);
+  message.lines.reserve(set.lines.size());
+  for (const LineSegment& segment : set.lines) {
+    message.lines.push_back(toMessage(segment));
+  }
+  return message;
+}
+
+MatchSet fromMessage(const evolin_ros::LineMatchArray& message) {
+  MatchSet set;
+  set.first_stamp = fromRos(message.first_stamp);
+  set.stamp = fromRos(message.header.stamp);
+  set.frame_id = withoutLeadingSlash(message.header.frame_id);
+  set.source = message.source;
+  set.lines_source = message.lines_source;
+  set.processing_time = message.processing_time.toSec();
+  set.matches.reserve(message.matches.size());
+  for (const evolin_ros::LineMatch& match : message.matches) {
+    set.matches.push_back({match.first, match.second, match.distance});
+  }
+  return set;
+}
+
+evolin_ros::LineMatchArray toMessage(const MatchSet& set) {
+  evolin_ros::LineMatchArray message;
+  message.header = makeHeader(set.stamp, set.frame_id);
+  message.first_stamp = toRosTime(set.first_stamp);
+  message.source = set.source;
+  message.lines_source = set.lines_source;
+  message.processing_time = ros::Duration(set.processing_time);
+  message.matches.reserve(set.matches.size());
+  for (const LineMatch& match : set.matches) {
+    evolin_ros::LineMatch pair;
+    pair.first = match.first;
+    pair.second = match.second;
+    pair.distance = match.distance;
+    message.matches.push_back(pair);
+  }
+  return message;
+}
+
+Camera fromMessage(const sensor_msgs::CameraInfo& message) {
+  if (message.K[0] == 0) {
+    throw Error("camera_info: K[0] is 0: the camera is uncalibrated");
+  }
+  Camera camera;
+  camera.width = static_cast<int>(message.width);
+  camera.height = static_cast<int>(message.height);
+  camera.fx = message.K[0];
+  camera.fy = message.K[4];
+  camera.cx = message.K[2];
+  camera.cy = message.K[5];
+  if (!message.distortion_model.empty()) {
+    camera.distortion_model = message.distortion_model;
+  }
+  camera.distortion = message.D;
+  validateCamera(camera, "camera_info");
+  return camera;
+}
+
+sensor_msgs::CameraInfo toMessage(const Camera& camera, const std_msgs::Header& header) {
+  sensor_msgs::CameraInfo message;
+  message.header = header;
+  message.width = static_cast<std::uint32_t>(camera.width);
+  message.height = static_cast<std::uint32_t>(camera.height);
+  message.distortion_model = camera.distortion_model;
+  message.D = camera.distortion;
+  if (message.D.empty() && camera.distortion_model == sensor_msgs::distortion_models::PLUMB_BOB) {
+    message.D.assign(5, 0.0);
+  }
+  message.K = {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
+  message.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  message.P = {camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
+  return message;
+}
+
+Pose fromMessage(const geometry_msgs::PoseStamped& message) {
+  const geometry_msgs::Pose& from = message.pose;
+  Pose pose;
+  pose.translation = {from.position.x, from.position.y, from.position.z};
+  pose.rotation = {from.orientation.w, from.orientation.x, from.orientation.y, from.orientation.z};
+  const double norm = pose.rotation.norm();
+  if (!(norm > 0) || !std::isfinite(norm)) {
+    throw Error("pose at " + formatStamp(fromRos(message.header.stamp)) +
+                " s: quaternion of norm " + std::to_string(norm) + ", expected 1");
+  }
+  pose.rotation.normalize();
+  return pose;
+}
+
+geometry_msgs::Pose toMessage(const Pose& pose) {
+  geometry_msgs::Pose message;
+  message.position.x = pose.translation.x();
+  message.position.y = pose.translation.y();
+  message.position.z = pose.translation.z();
+  message.orientation.w = pose.rotation.w();
+  message.orientation.x = pose.rotation.x();
+  message.orientation.y = pose.rotation.y();
+  message.orientation.z = pose.rotation.z();
+  return message;
+}
+
+Frame toFrame(const sensor_msgs::ImageConstPtr& message) {
+  namespace encodings = sensor_msgs::image_encodings;
+  const bool one_channel =
+      encodings::isMono(message->encoding) && encodings::bitDepth(message->encoding) == 8;
+  const std::string wanted = one_channel ? encodings::MONO8 : encodings::BGR8;
+  Frame frame;
+  frame.stamp = fromRos(message->header.stamp);
+  frame.name = formatStamp(frame.stamp);
+  try {
+    const cv_bridge::CvImageConstPtr shared = cv_bridge::toCvShare(message, wanted);
+    frame.image = shared->image;
+    frame.owner = std::make_shared<cv_bridge::CvImageConstPtr>(shared);
+  } catch (const cv_bridge::Exception& error) {
+    throw Error("image of encoding '" + message->encoding +
+                "': expected mono8, bgr8, rgb8, bgra8 or another 8-bit colour encoding (" +
+                error.what() + ")");
+  } catch (const cv::Exception& error) {
+    throw Error("image of encoding '" + message->encoding + "', " + std::to_string(message->width) +
+                "x" + std::to_string(message->height) + ", step " + std::to_string(message->step) +
+                ": unusable (" + error.what() + ")");
+  }
+  if (frame.image.empty()) {
+    throw Error("image at " + frame.name + " s has no pixels");
+  }
+  return frame;
+}
+
+cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor) {
+  namespace encodings = sensor_msgs::image_encodings;
+  cv::Mat depth;
+  if (message->encoding == encodings::TYPE_32FC1) {
+    depth = cv_bridge::toCvShare(message)->image.clone();
+  } else if (message->encoding == encodings::TYPE_16UC1 || message->encoding == encodings::MONO16) {
+    cv_bridge::toCvShare(message)->image.convertTo(depth, CV_32F, 1 / depth_factor);
+  } else {
+    throw Error("depth image of encoding '" + message->encoding +
+                "': expected 32FC1 (metres) or 16UC1");
+  }
+  depth.setTo(std::numeric_limits<float>::quiet_NaN(), depth == 0);
+  return depth;
+}
+
+evolin_ros::DetectionMetrics toMessage(const std::vector<DetectionEntry>& entries,
+                                       const std_msgs::Header& header, bool cumulative,
+                                       std::size_t frames, Protocol protocol) {
+  evolin_ros::DetectionMetrics message;
+  message.header = header;
+  message.cumulative = cumulative;
+  message.frames = static_cast<std::uint32_t>(frames);
+  message.protocol = toString(protocol);
+  for (const DetectionEntry& entry : entries) {
+    evolin_ros::ClassificationEntry row = entryOf("vectorized", entry.counts);
+    row.distance = toString(entry.setting.distance);
+    row.threshold = entry.setting.threshold;
+    row.average_precision = entry.average_precision.value_or(kNotDefined);
+    message.entries.push_back(row);
+  }
+  return message;
+}
+
+evolin_ros::AssociationMetrics toMessage(const Classification& counts,
+                                         const std_msgs::Header& header, bool cumulative,
+                                         std::size_t pairs, Protocol protocol) {
+  evolin_ros::AssociationMetrics message;
+  message.header = header;
+  message.cumulative = cumulative;
+  message.frames = static_cast<std::uint32_t>(pairs);
+  message.protocol = toString(protocol);
+  message.entries.push_back(entryOf("association", counts));
+  return message;
+}
+
+evolin_ros::Coverage toMessage(const CoverageCounts& counts, const std_msgs::Header& header) {
+  evolin_ros::Coverage message;
+  message.header = header;
+  message.seen = static_cast<std::uint32_t>(counts.seen);
+  message.evaluated = static_cast<std::uint32_t>(counts.evaluated);
+  message.unmatched = static_cast<std::uint32_t>(counts.unmatched);
+  message.dropped = static_cast<std::uint32_t>(counts.dropped);
+  message.no_ground_truth = static_cast<std::uint32_t>(counts.no_ground_truth);
+  message.bad_ground_truth = static_cast<std::uint32_t>(counts.bad_ground_truth);
+  message.skipped = static_cast<std::uint32_t>(counts.skipped);
+  return message;
+}
+
+}  // namespace evolin::ros_shell

@@ -1,0 +1,64 @@
+// Messages to values of the core and back, as free functions.
+#pragma once
+
+#include <evolin_ros/AssociationMetrics.h>
+#include <evolin_ros/Coverage.h>
+#include <evolin_ros/DetectionMetrics.h>
+#include <evolin_ros/LineArray.h>
+#include <evolin_ros/LineMatchArray.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/time.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include <string>
+
+#include "evolin_ros/dataset/frame.h"
+#include "evolin_ros/evaluation/inputs.h"
+#include "evolin_ros/evaluation/report.h"
+
+namespace evolin::ros_shell {
+
+Stamp fromRos(const ros::Time& time);
+/// Throws Error for a stamp before 1970 or after 2106, which ROS 1 cannot hold.
+ros::Time toRosTime(Stamp stamp);
+
+/// `header.stamp` and `header.frame_id` become the set's; a leading slash of the frame is taken
+/// away. Values are taken as they are, NaN and infinities included.
+LineSet fromMessage(const evolin_ros::LineArray& message);
+evolin_ros::LineArray toMessage(const LineSet& set);
+
+MatchSet fromMessage(const evolin_ros::LineMatchArray& message);
+evolin_ros::LineMatchArray toMessage(const MatchSet& set);
+
+/// Throws Error naming what is wrong for an uncalibrated camera (K[0] == 0) or an unknown
+/// distortion model.
+Camera fromMessage(const sensor_msgs::CameraInfo& message);
+/// P is K without distortion, R the identity; binning and region of interest are those of the whole
+/// image.
+sensor_msgs::CameraInfo toMessage(const Camera& camera, const std_msgs::Header& header);
+
+Pose fromMessage(const geometry_msgs::PoseStamped& message);
+geometry_msgs::Pose toMessage(const Pose& pose);
+
+/// The image as CV_8UC1 or BGR CV_8UC3. MONO8 and BGR8 share the message's memory, which lives as
+/// long as the returned frame; other encodings are converted. Throws Error naming an encoding that
+/// cannot be.
+Frame toFrame(const sensor_msgs::ImageConstPtr& message);
+
+/// 16UC1 (divided by `depth_factor`) or 32FC1 (metres) as CV_32FC1 metres with NaN where there is
+/// none. Throws Error for another encoding.
+cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor);
+
+/// TUM's bags write "/world"; tf2 and everybody else "world".
+std::string withoutLeadingSlash(const std::string& frame_id);
+
+evolin_ros::DetectionMetrics toMessage(const std::vector<DetectionEntry>& entries,
+                                       const std_msgs::Header& header, bool cumulative,
+                                       std::size_t frames, Protocol protocol);
+evolin_ros::AssociationMetrics toMessage(const Classification& counts,
+                                         const std_msgs::Header& header, bool cumulative,
+                                         std::size_t pairs, Protocol protocol);
+evolin_ros::Coverage toMessage(const CoverageCounts& counts, const std_msgs::Header& header);
+
+}  // namespace evolin::ros_shell

@@ -1,0 +1,340 @@
+// The nodelet evolin_ros/Evaluator: lines, ground truth and matches in; metrics, coverage and a
+// report on disk out.
+#include <nodelet/nodelet.h>
+#include <std_srvs/Trigger.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "conversions.h"
+#include "evaluator_options.h"
+#include "evolin_ros/base/error.h"
+#include "evolin_ros/evaluation/stream_evaluator.h"
+#include "node_parameters.h"
+#include "report_keeper.h"
+#include "topic_watchdog.h"
+#include "topics.h"
+
+namespace evolin::ros_shell {
+
+class EvaluatorNodelet : public nodelet::Nodelet {
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  /// Of the cumulative topics, s of wall time.
+  static constexpr double kPublishPeriod = 0.5;
+
+  void onInit() override {
+    try {
+      start();
+    } catch (const std::exception& error) {
+      NODELET_FATAL("%s", error.what());
+      throw;
+    }
+  }
+
+  void start() {
+    options_ = readEvaluatorOptions(privateParameters(getPrivateNodeHandle()), getName());
+    evaluator_ = std::make_unique<StreamEvaluator>(options_.pass);
+    keeper_ = std::make_unique<ReportKeeper>(options_.output_dir);
+    if (keeper_->replacesEarlier()) {
+      NODELET_WARN("the report of an earlier run in %s will be replaced",
+                   keeper_->folder().c_str());
+    }
+    watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), options_.warn_after);
+    last_input_ = ros::WallTime::now();
+    advertise();
+    subscribe();
+    offerServices();
+    NODELET_INFO("protocol %s, report in %s",
+                 toString(options_.pass.evaluation.vectorized.protocol).c_str(),
+                 keeper_->folder().c_str());
+  }
+
+  void advertise() {
+    ros::NodeHandle& handle = getNodeHandle();
+    detection_frame_ =
+        handle.advertise<evolin_ros::DetectionMetrics>(topics::kDetectionFrame, kResultQueue);
+    detection_cumulative_ = handle.advertise<evolin_ros::DetectionMetrics>(
+        topics::kDetectionCumulative, kResultQueue, true);
+    association_frame_ =
+        handle.advertise<evolin_ros::AssociationMetrics>(topics::kAssociationFrame, kResultQueue);
+    association_cumulative_ = handle.advertise<evolin_ros::AssociationMetrics>(
+        topics::kAssociationCumulative, kResultQueue, true);
+    coverage_ = handle.advertise<evolin_ros::Coverage>(topics::kCoverage, kResultQueue, true);
+  }
+
+  /// All inputs share the single-threaded queue, so that each stays in its own order.
+  void subscribe() {
+    ros::NodeHandle& handle = getNodeHandle();
+    expect(topics::kLines, "evolin_ros/LineArray", "Remap 'lines' to the front-end's topic.");
+    expect(topics::kGroundTruthLines, "evolin_ros/LineArray",
+           "Play a bag that has it, or load evolin_ros/GroundTruth on an annotation folder.");
+    lines_ = handle.subscribe(topics::kLines, kResultQueue, &EvaluatorNodelet::onLines, this);
+    ground_truth_ = handle.subscribe(topics::kGroundTruthLines, kResultQueue,
+                                     &EvaluatorNodelet::onGroundTruth, this);
+    matches_ = handle.subscribe(topics::kMatches, kResultQueue, &EvaluatorNodelet::onMatches, this);
+    camera_info_ =
+        handle.subscribe(topics::kCameraInfo, kResultQueue, &EvaluatorNodelet::onCameraInfo, this);
+  }
+
+  /// Services and timers run on the manager's many threads: ~finish waits while messages come in.
+  void offerServices() {
+    ros::NodeHandle& handle = getMTPrivateNodeHandle();
+    save_timer_ =
+        handle.createWallTimer(ros::WallDuration(options_.save_period),
+                               [this](const ros::WallTimerEvent&) { saveQuietly(false); });
+    idle_timer_ = handle.createWallTimer(ros::WallDuration(0.1),
+                                         [this](const ros::WallTimerEvent&) { saveWhenIdle(); });
+    publish_timer_ = handle.createWallTimer(ros::WallDuration(kPublishPeriod),
+                                            [this](const ros::WallTimerEvent&) { publishSums(); });
+    save_ = handle.advertiseService(services::kSaveReport, &EvaluatorNodelet::onSave, this);
+    reset_ = handle.advertiseService(services::kReset, &EvaluatorNodelet::onReset, this);
+    // Last: whoever sees ~finish may start to send.
+    finish_ = handle.advertiseService(services::kFinish, &EvaluatorNodelet::onFinish, this);
+  }
+
+  void expect(const std::string& topic, const std::string& type, const std::string& hint) {
+    watchdog_->expect(getNodeHandle().resolveName(topic), type, hint);
+  }
+
+  void onLines(const evolin_ros::LineArrayConstPtr& message) {
+    take(topics::kLines, message->header,
+         [&] { return evaluator_->addLines(fromMessage(*message)); });
+  }
+
+  void onGroundTruth(const evolin_ros::LineArrayConstPtr& message) {
+    take(topics::kGroundTruthLines, message->header,
+         [&] { return evaluator_->addGroundTruth(fromMessage(*message)); });
+  }
+
+  void onMatches(const evolin_ros::LineMatchArrayConstPtr& message) {
+    take(topics::kMatches, message->header,
+         [&] { return evaluator_->addMatches(fromMessage(*message)); });
+  }
+
+  void onCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
+    take(topics::kCameraInfo, message->header,
+         [&] { return evaluator_->addImage(fromRos(message->header.stamp)); });
+  }
+
+  template <class Add>
+  void take(const std::string& topic, const std_msgs::Header& header, const Add& add) {
+    const std::string name = getNodeHandle().resolveName(topic);
+    watchdog_->heard(name);
+    std::optional<Report> finished;
+    EvaluationUpdate update;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      const ros::WallTime now = ros::WallTime::now();
+      if (inputs_ > 0) {
+        longest_gap_ = std::max(longest_gap_, (now - last_input_).toSec());
+      }
+      last_input_ = now;
+      ++inputs_;
+      update = add();
+      if (update.new_pass) {
+        finished = evaluator_->previousReport();
+      }
+      publish(update, header);
+    }
+    for (const std::string& note : update.notes) {
+      NODELET_WARN_THROTTLE(5, "%s: %s", name.c_str(), note.c_str());
+    }
+    if (finished) {
+      NODELET_INFO("%s: time jumped back to %.6f, pass %d begins", name.c_str(),
+                   header.stamp.toSec(), finished->pass + 1);
+      writeQuietly(std::move(*finished));
+    }
+  }
+
+  void publish(const EvaluationUpdate& update, const std_msgs::Header& header) {
+    const Protocol protocol = options_.pass.evaluation.vectorized.protocol;
+    for (const FrameRecord& frame : update.frames) {
+      if (frame.state != FrameState::kEvaluated) {
+        continue;
+      }
+      std_msgs::Header stamped = header;
+      stamped.stamp = toRosTime(frame.stamp);
+      detection_frame_.publish(toMessage(frame.entries, stamped, false, 1, protocol));
+    }
+    for (const PairRecord& pair : update.pairs) {
+      std_msgs::Header stamped = header;
+      stamped.stamp = toRosTime(pair.stamp);
+      association_frame_.publish(toMessage(pair.counts, stamped, false, 1, protocol));
+    }
+    last_header_ = header;
+  }
+
+  /// Sums cost more than a frame's own figures (average precision sorts all predictions), so they
+  /// go out at a period of their own.
+  void publishSums() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (inputs_ == published_inputs_) {
+      return;
+    }
+    published_inputs_ = inputs_;
+    const SequenceEvaluator& sums = evaluator_->current().evaluator();
+    const Protocol protocol = options_.pass.evaluation.vectorized.protocol;
+    detection_cumulative_.publish(toMessage(sums.detectionEntries(), last_header_, true,
+                                            sums.detection().frames(), protocol));
+    association_cumulative_.publish(toMessage(sums.association().classification(), last_header_,
+                                              true, sums.association().pairs(), protocol));
+    coverage_.publish(toMessage(evaluator_->coverage(), last_header_));
+  }
+
+  /// What a report must carry to be understood later; asks the parameter server, so not under the
+  /// lock.
+  void addProvenance(Report* report) {
+    report->provenance["parameters"] = parametersAsJson(getPrivateNodeHandle().getNamespace());
+    for (const std::string& name : options_.record_parameters) {
+      const std::string resolved = getNodeHandle().resolveName(name);
+      report->provenance["parameters of " + resolved] = parametersAsJson(resolved);
+    }
+  }
+
+  std::filesystem::path write(Report report) {
+    addProvenance(&report);
+    int newest = 0;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      newest = evaluator_->pass();
+    }
+    return keeper_->write(std::move(report), newest);
+  }
+
+  /// The parts of the pass before may still have changed it; both are written.
+  std::filesystem::path save(bool complete) {
+    std::optional<Report> earlier;
+    Report report;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      earlier = evaluator_->previousReport();
+      report = evaluator_->report(complete);
+      saved_inputs_ = inputs_;
+    }
+    if (earlier) {
+      write(std::move(*earlier));
+    }
+    return write(std::move(report));
+  }
+
+  void writeQuietly(Report report) {
+    try {
+      write(std::move(report));
+    } catch (const std::exception& error) {
+      NODELET_ERROR_THROTTLE(5, "%s", error.what());
+    }
+  }
+
+  void saveQuietly(bool complete) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (inputs_ == saved_inputs_) {
+        return;
+      }
+    }
+    try {
+      save(complete);
+    } catch (const std::exception& error) {
+      NODELET_ERROR_THROTTLE(5, "%s", error.what());
+    }
+  }
+
+  void saveWhenIdle() {
+    double idle = 0;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      idle = (ros::WallTime::now() - last_input_).toSec();
+    }
+    if (idle > options_.idle_timeout) {
+      saveQuietly(false);
+    }
+  }
+
+  bool onSave(Trigger::Request& /*request*/, Trigger::Response& response) {
+    return answer(&response, [this] { return save(false); });
+  }
+
+  bool onFinish(Trigger::Request& /*request*/, Trigger::Response& response) {
+    drain();
+    publishSums();
+    return answer(&response, [this] { return save(true); });
+  }
+
+  bool onReset(Trigger::Request& /*request*/, Trigger::Response& response) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    evaluator_->reset();
+    response.success = true;
+    response.message = "all figures are forgotten; the next message begins pass 1";
+    NODELET_INFO("%s", response.message.c_str());
+    return true;
+  }
+
+  template <class Save>
+  bool answer(Trigger::Response* response, const Save& save_now) {
+    try {
+      response->message = save_now().string();
+      response->success = true;
+    } catch (const std::exception& error) {
+      response->message = error.what();
+      response->success = false;
+      NODELET_ERROR("%s", error.what());
+    }
+    return true;
+  }
+
+  /// Returns once every frame that was heard of has its lines and matches, or nothing has come for
+  /// so long that nothing will.
+  void drain() {
+    constexpr double kSettled = 0.3;
+    // A slow method's next result may be a few of its longest pauses away.
+    constexpr double kPauses = 4;
+    while (ros::ok()) {
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        const double idle = (ros::WallTime::now() - last_input_).toSec();
+        const double patience = std::max(options_.drain_timeout, kPauses * longest_gap_);
+        if (idle > (evaluator_->waiting() ? patience : kSettled)) {
+          return;
+        }
+      }
+      ros::WallDuration(0.02).sleep();
+    }
+  }
+
+  EvaluatorOptions options_;
+  std::mutex mutex_;  ///< guards what follows, up to the blank line
+  std::unique_ptr<StreamEvaluator> evaluator_;
+  ros::WallTime last_input_;
+  double longest_gap_ = 0;  ///< between two inputs, s of wall time
+  std::size_t inputs_ = 0;
+  std::size_t saved_inputs_ = 0;
+  std::size_t published_inputs_ = 0;
+  std_msgs::Header last_header_;
+
+  std::unique_ptr<ReportKeeper> keeper_;
+  std::unique_ptr<TopicWatchdog> watchdog_;
+  ros::Publisher detection_frame_;
+  ros::Publisher detection_cumulative_;
+  ros::Publisher association_frame_;
+  ros::Publisher association_cumulative_;
+  ros::Publisher coverage_;
+  ros::Subscriber lines_;
+  ros::Subscriber ground_truth_;
+  ros::Subscriber matches_;
+  ros::Subscriber camera_info_;
+  ros::WallTimer save_timer_;
+  ros::WallTimer idle_timer_;
+  ros::WallTimer publish_timer_;
+  ros::ServiceServer save_;
+  ros::ServiceServer reset_;
+  ros::ServiceServer finish_;
+};
+
+}  // namespace evolin::ros_shell
+
+PLUGINLIB_EXPORT_CLASS(evolin::ros_shell::EvaluatorNodelet, nodelet::Nodelet)

@@ -1,0 +1,28 @@
+// The evaluator nodelet's parameters.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+#include <vector>
+
+#include "evolin_ros/evaluation/pass_evaluation.h"
+
+namespace evolin::ros_shell {
+
+struct EvaluatorOptions {
+  PassOptions pass;
+  std::string output_dir;   ///< "": a new folder under ~/.ros/evolin_ros
+  double save_period = 5;   ///< s of wall time between two savings
+  double idle_timeout = 2;  ///< s of wall time without input after which the report is saved
+  double drain_timeout =
+      5;  ///< s of wall time without input after which ~finish stops waiting for what is due
+  double warn_after = 3;  ///< s without an expected message until the warning; 0: never
+  std::vector<std::string>
+      record_parameters;  ///< namespaces whose parameters the report shall carry
+};
+
+/// Throws ConfigError naming the parameter, its value and what is accepted.
+EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::string& owner);
+
+}  // namespace evolin::ros_shell

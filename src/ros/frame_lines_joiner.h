@@ -1,0 +1,45 @@
+// Brings images and their lines together by stamp, in order of time and within a bounded memory.
+#pragma once
+
+#include <evolin_ros/LineArray.h>
+#include <sensor_msgs/Image.h>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace evolin::ros_shell {
+
+/// The lines' stream leads: a stamp of it that lies before the last one taken is a jump back in
+/// time. One thread at a time.
+class FrameLinesJoiner {
+ public:
+  struct Pair {
+    sensor_msgs::ImageConstPtr image;
+    evolin_ros::LineArrayConstPtr lines;
+  };
+  struct Result {
+    std::vector<Pair> complete;  ///< in order of time
+    bool jumped_back =
+        false;  ///< before `complete`: what is remembered of earlier frames is of another pass
+    std::string problem;  ///< for the log: what had to be left out and why
+  };
+
+  /// Keeps at most `capacity` images and as many line arrays that wait for their image.
+  explicit FrameLinesJoiner(std::size_t capacity) : capacity_(capacity) {}
+
+  Result addImage(const sensor_msgs::ImageConstPtr& image);
+  Result addLines(const evolin_ros::LineArrayConstPtr& lines);
+
+ private:
+  void pair(Result* result);
+
+  std::size_t capacity_;
+  std::deque<sensor_msgs::ImageConstPtr> images_;
+  std::deque<evolin_ros::LineArrayConstPtr> lines_;
+  std::optional<ros::Time> last_lines_;
+};
+
+}  // namespace evolin::ros_shell

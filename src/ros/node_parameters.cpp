@@ -1,0 +1,131 @@
+// Conversion of XML-RPC values, which is how the parameter server speaks.
+#include "node_parameters.h"
+
+#include <ros/param.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "evolin_ros/base/error.h"
+#include "evolin_ros/base/text.h"
+
+namespace evolin::ros_shell {
+
+namespace {
+
+nlohmann::ordered_json toJson(const YAML::Node& node) {
+  if (node.IsMap()) {
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
+    for (const auto& entry : node) {
+      object[entry.first.Scalar()] = toJson(entry.second);
+    }
+    return object;
+  }
+  if (node.IsSequence()) {
+    nlohmann::ordered_json array = nlohmann::ordered_json::array();
+    for (const YAML::Node& element : node) {
+      array.push_back(toJson(element));
+    }
+    return array;
+  }
+  if (!node.IsScalar()) {
+    return nullptr;
+  }
+  const std::string& text = node.Scalar();
+  if (text == "true" || text == "false") {
+    return text == "true";
+  }
+  if (const auto integer = parseInteger(text)) {
+    return *integer;
+  }
+  const auto number = parseDouble(text);
+  return number && std::isfinite(*number) ? nlohmann::ordered_json(*number)
+                                          : nlohmann::ordered_json(text);
+}
+
+}  // namespace
+
+YAML::Node toYaml(XmlRpc::XmlRpcValue value) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeInvalid:
+      return YAML::Node();
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return YAML::Node(static_cast<bool>(value) ? "true" : "false");
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return YAML::Node(std::to_string(static_cast<int>(value)));
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      return YAML::Node(formatDouble(static_cast<double>(value)));
+    case XmlRpc::XmlRpcValue::TypeString:
+      return YAML::Node(static_cast<std::string>(value));
+    case XmlRpc::XmlRpcValue::TypeArray: {
+      YAML::Node list(YAML::NodeType::Sequence);
+      for (int i = 0; i < value.size(); ++i) {
+        list.push_back(toYaml(value[i]));
+      }
+      return list;
+    }
+    case XmlRpc::XmlRpcValue::TypeStruct: {
+      YAML::Node map(YAML::NodeType::Map);
+      for (auto& [key, element] : value) {
+        map[key] = toYaml(element);
+      }
+      return map;
+    }
+    default:
+      throw Error("a parameter is binary data or a date; expected a number, text, list or map");
+  }
+}
+
+YAML::Node privateParameters(const ros::NodeHandle& handle) {
+  XmlRpc::XmlRpcValue value;
+  return handle.getParam("", value) ? toYaml(value) : YAML::Node();
+}
+
+std::string parametersAsJson(const std::string& name) {
+  XmlRpc::XmlRpcValue value;
+  return ros::param::get(name, value) ? toJson(toYaml(value)).dump() : "null";
+}
+
+YAML::Node mergedParameters(const std::string& config, const YAML::Node& overrides) {
+  YAML::Node merged(YAML::NodeType::Map);
+  if (!config.empty()) {
+    const std::string file = expandPath(config);
+    try {
+      const YAML::Node loaded = YAML::LoadFile(file);
+      if (!loaded.IsMap() && !loaded.IsNull()) {
+        throw Error(file + ": expected a map of parameters");
+      }
+      merged = YAML::Clone(loaded.IsMap() ? loaded : merged);
+    } catch (const YAML::BadFile&) {
+      throw Error(file + ": cannot be read; expected a YAML file of parameters");
+    } catch (const YAML::Exception& error) {
+      throw ParseError(file, error.mark.line + 1, error.msg);
+    }
+  }
+  if (overrides.IsMap()) {
+    for (const auto& entry : overrides) {
+      merged[entry.first.Scalar()] = entry.second;
+    }
+  }
+  return merged;
+}
+
+std::string expandPath(const std::string& path) {
+  if (path.empty()) {
+    return path;
+  }
+  const char* home = std::getenv("HOME");
+  if (path == "~" || path.rfind("~/", 0) == 0) {
+    return std::string(home == nullptr ? "" : home) + path.substr(1);
+  }
+  // roslaunch starts nodes in ~/.ros but leaves PWD as it was in the shell of the caller.
+  const char* called_from = std::getenv("PWD");
+  const std::filesystem::path given(path);
+  return given.is_relative() && called_from != nullptr
+             ? (std::filesystem::path(called_from) / given).lexically_normal().string()
+             : path;
+}
+
+}  // namespace evolin::ros_shell

@@ -1,0 +1,29 @@
+// A node's private parameters as YAML, so that they are checked by the same reader as a plug-in's
+// files.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+namespace evolin::ros_shell {
+
+/// Scalars, lists and maps; throws Error for binary and date values.
+YAML::Node toYaml(XmlRpc::XmlRpcValue value);
+
+/// Everything below the handle's namespace as a map; null when there is nothing.
+YAML::Node privateParameters(const ros::NodeHandle& handle);
+
+/// Everything below `name` as JSON text, "null" when there is nothing.
+std::string parametersAsJson(const std::string& name);
+
+/// A plug-in's parameters: the map of the file `config` (when not "") with `overrides` laid over
+/// it. Throws Error naming the file when it cannot be read or is not a map.
+YAML::Node mergedParameters(const std::string& config, const YAML::Node& overrides);
+
+/// `path` with ~ for the home folder and relative paths taken from where the launch was called.
+std::string expandPath(const std::string& path);
+
+}  // namespace evolin::ros_shell

@@ -1,0 +1,19 @@
+// rospack's look-up of this package.
+#include "package_files.h"
+
+#include <ros/package.h>
+
+#include "evolin_ros/base/error.h"
+
+namespace evolin {
+
+std::filesystem::path cameraFolder() {
+  const std::string package = ros::package::getPath("evolin_ros");
+  if (package.empty()) {
+    throw Error(
+        "the package evolin_ros is not on ROS_PACKAGE_PATH; source the workspace's setup.bash");
+  }
+  return std::filesystem::path(package) / "config" / "cameras";
+}
+
+}  // namespace evolin

@@ -1,0 +1,13 @@
+// Where the package's own files are, in a source checkout's development space as well as installed;
+// no ROS header.
+#pragma once
+
+#include <filesystem>
+
+namespace evolin {
+
+/// The folder of camera presets, config/cameras. Throws Error when the package is not on the
+/// package path.
+std::filesystem::path cameraFolder();
+
+}  // namespace evolin

@@ -1,0 +1,47 @@
+// Names of all topics and services, relative and thus remappable, and the lengths of their queues.
+#pragma once
+
+namespace evolin::ros_shell {
+
+namespace topics {
+constexpr char kImage[] = "image";
+constexpr char kDepth[] = "depth";
+constexpr char kCameraInfo[] = "camera_info";
+constexpr char kLines[] = "lines";
+constexpr char kLinesImage[] = "lines_image";
+constexpr char kMatches[] = "matches";
+constexpr char kMatchesImage[] = "matches_image";
+constexpr char kGroundTruthLines[] = "ground_truth/lines";
+constexpr char kGroundTruthPose[] = "ground_truth/pose";
+constexpr char kDetectionFrame[] = "metrics/detection/frame";
+constexpr char kDetectionCumulative[] = "metrics/detection/cumulative";
+constexpr char kAssociationFrame[] = "metrics/association/frame";
+constexpr char kAssociationCumulative[] = "metrics/association/cumulative";
+constexpr char kCoverage[] = "coverage";
+}  // namespace topics
+
+namespace services {
+constexpr char kSaveReport[] = "save_report";
+constexpr char kReset[] = "reset";
+constexpr char kFinish[] = "finish";
+}  // namespace services
+
+/// What evolin bag writes: the topics of TUM's own bags and the ground truth.
+namespace bag_topics {
+constexpr char kImage[] = "/camera/rgb/image_color";
+constexpr char kCameraInfo[] = "/camera/rgb/camera_info";
+constexpr char kDepth[] = "/camera/depth/image";
+constexpr char kDepthCameraInfo[] = "/camera/depth/camera_info";
+constexpr char kTf[] = "/tf";
+constexpr char kGroundTruthLines[] = "/ground_truth/lines";
+constexpr char kGroundTruthPose[] = "/ground_truth/pose";
+constexpr char kCameraFrame[] = "openni_rgb_optical_frame";
+constexpr char kWorldFrame[] = "world";
+}  // namespace bag_topics
+
+/// Images are large: enough for a method to catch up, not for a whole sequence.
+constexpr int kImageQueue = 30;
+/// Lines, matches and metrics are small; a burst must not lose any.
+constexpr int kResultQueue = 1000;
+
+}  // namespace evolin::ros_shell

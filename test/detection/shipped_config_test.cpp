@@ -1,0 +1,88 @@
+// The files of config/detectors/ against the defaults in the code.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/opencv_edlines.h"
+#include "evolin_ros/detection/opencv_fld.h"
+#include "evolin_ros/detection/opencv_lsd.h"
+
+namespace evolin {
+namespace {
+
+auto values(const OpenCvLsdParameters& p) {
+  return std::make_tuple(p.refine, p.scale, p.sigma_scale, p.quantization, p.angle_tolerance,
+                         p.log_eps, p.density_threshold, p.bins);
+}
+
+auto values(const OpenCvEdLinesParameters& p) {
+  return std::make_tuple(p.parameter_free, p.gradient_operator, p.gradient_threshold,
+                         p.anchor_threshold, p.scan_interval, p.min_path_length, p.sigma,
+                         p.sum_gradient, p.nfa_validation, p.min_line_length,
+                         p.max_distance_between_two_lines, p.line_fit_error_threshold,
+                         p.max_error_threshold);
+}
+
+auto values(const OpenCvFldParameters& p) {
+  return std::make_tuple(p.length_threshold, p.distance_threshold, p.canny_threshold1,
+                         p.canny_threshold2, p.canny_aperture, p.merge);
+}
+
+auto values(const HoughPParameters& p) {
+  return std::make_tuple(p.canny_threshold1, p.canny_threshold2, p.canny_aperture, p.rho, p.theta,
+                         p.threshold, p.min_length, p.max_gap);
+}
+
+std::filesystem::path configFolder() {
+  return std::filesystem::path(EVOLIN_SOURCE_DIR) / "config" / "detectors";
+}
+
+// A file that names every parameter once, with the default, has as many keys as the struct has
+// members; unknown keys do not load.
+template <typename Detector>
+void expectHoldsAllDefaults(const std::string& name) {
+  Detector detector;
+  if (!detector.whyUnavailable().empty()) {
+    GTEST_SKIP() << detector.whyUnavailable();
+  }
+  const YAML::Node file = YAML::LoadFile((configFolder() / (name + ".yaml")).string());
+  ASSERT_NO_THROW(detector.configure(file));
+  const auto defaults = values(Detector().parameters());
+  EXPECT_TRUE(values(detector.parameters()) == defaults);
+  std::set<std::string> keys;
+  for (const auto& entry : file) {
+    keys.insert(entry.first.as<std::string>());
+  }
+  EXPECT_EQ(keys.size(), file.size()) << "a key occurs twice";
+  EXPECT_EQ(keys.size(), std::tuple_size<std::decay_t<decltype(defaults)>>::value);
+}
+
+TEST(ShippedDetectorConfig, LsdHoldsAllDefaults) {
+  expectHoldsAllDefaults<OpenCvLsd>("opencv_lsd");
+}
+
+TEST(ShippedDetectorConfig, EdLinesHoldsAllDefaults) {
+  expectHoldsAllDefaults<OpenCvEdLines>("opencv_edlines");
+}
+
+TEST(ShippedDetectorConfig, FldHoldsAllDefaults) {
+  expectHoldsAllDefaults<OpenCvFld>("opencv_fld");
+}
+
+TEST(ShippedDetectorConfig, HoughPHoldsAllDefaults) { expectHoldsAllDefaults<HoughP>("hough_p"); }
+
+TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
+  const std::set<std::string> tested = {"opencv_lsd.yaml", "opencv_edlines.yaml", "opencv_fld.yaml",
+                                        "hough_p.yaml"};
+  for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
+    EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace evolin
