@@ -28,7 +28,7 @@ std::string shown(const YAML::Node& node) {
     case YAML::NodeType::Scalar:
       return quote(node.Scalar());
     case YAML::NodeType::Sequence:
-      return "a list";
+      return node.size() == 0 ? "an empty list" : "a list";
     case YAML::NodeType::Map:
       return "a map";
     default:

@@ -2,7 +2,9 @@
 #include "evolin_ros/evaluation/pass_evaluation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <tuple>
 
 #include "evolin_ros/base/error.h"
 
@@ -11,6 +13,10 @@ namespace evolin {
 namespace {
 
 constexpr std::size_t kMostNotes = 100;
+
+bool isMeasured(double processing_time) {
+  return std::isfinite(processing_time) && processing_time > 0;
+}
 
 FrameState stateByWhatIsMissing(bool has_lines) {
   return has_lines ? FrameState::kNoGroundTruth : FrameState::kUnmatched;
@@ -43,6 +49,22 @@ void PassEvaluation::setState(Entry* entry, FrameState state) {
   entry->record.state = state;
 }
 
+/// Equal scores are ranked by the frames' order in time, whatever order they arrive in.
+std::uint32_t PassEvaluation::placeOfLines(Stamp stamp) {
+  std::uint32_t place = lines_seen_++;
+  if (!newest_lines_ || stamp > *newest_lines_) {
+    newest_lines_ = stamp;
+    return place;
+  }
+  for (auto later = entries_.rbegin(); later != entries_.rend() && later->first > stamp; ++later) {
+    if (later->second.number) {
+      place = (*later->second.number)++;
+    }
+  }
+  evaluator_.makeRoom(place);
+  return place;
+}
+
 EvaluationUpdate PassEvaluation::addImage(Stamp stamp) {
   entryAt(stamp).image = true;
   return {};
@@ -52,8 +74,11 @@ EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
   EvaluationUpdate update;
   const Stamp stamp = lines.stamp;
   Entry& entry = entryAt(stamp);
-  entry.number = lines_seen_++;
+  entry.number = placeOfLines(stamp);
   entry.record.lines = lines.lines.size();
+  if (!isMeasured(lines.processing_time)) {
+    lines.processing_time = 0;
+  }
   entry.record.processing_time = lines.processing_time;
   if (lines.processing_time > 0) {
     detector_times_.push_back(lines.processing_time);
@@ -89,6 +114,9 @@ EvaluationUpdate PassEvaluation::addGroundTruth(LineSet ground_truth) {
 
 EvaluationUpdate PassEvaluation::addMatches(MatchSet matches) {
   EvaluationUpdate update;
+  if (!isMeasured(matches.processing_time)) {
+    matches.processing_time = 0;
+  }
   if (matches.processing_time > 0) {
     associator_times_.push_back(matches.processing_time);
   }
@@ -225,8 +253,8 @@ Report PassEvaluation::report(bool complete) const {
   for (const auto& [key, matches] : pending_pairs_) {
     ++(betweenDetectedLines(matches) ? report.pairs.detected_lines : report.pairs.no_ground_truth);
   }
-  const bool on_ground_truth =
-      !matches_source_.empty() && matches_lines_source_ == ground_truth_source_;
+  const bool on_ground_truth = newest_matches_ && !ground_truth_source_.empty() &&
+                               matches_lines_source_ == ground_truth_source_;
   if (on_ground_truth) {
     const auto step = static_cast<std::size_t>(options_.frame_step);
     report.pairs_expected = ground_truth_seen_ > step ? ground_truth_seen_ - step : 0;
@@ -243,6 +271,10 @@ Report PassEvaluation::report(bool complete) const {
     report.frames.push_back(std::move(record));
   }
   report.pair_records = pair_records_;
+  std::sort(report.pair_records.begin(), report.pair_records.end(),
+            [](const PairRecord& a, const PairRecord& b) {
+              return std::tie(a.stamp, a.first_stamp) < std::tie(b.stamp, b.first_stamp);
+            });
   report.notes = notes_;
   if (notes_left_out_ > 0) {
     report.notes.push_back("and " + std::to_string(notes_left_out_) + " more of these");

@@ -91,7 +91,8 @@ std::string whyNoAssociation(const Report& report) {
   if (report.pairs.evaluated > 0) {
     return {};
   }
-  if (report.matches_source.empty()) {
+  const PairCounts& pairs = report.pairs;
+  if (pairs.detected_lines + pairs.no_ground_truth + pairs.bad_ground_truth + pairs.skipped == 0) {
     return "not evaluated: no matches were received";
   }
   if (report.pairs.detected_lines > 0) {

@@ -22,15 +22,23 @@ void addRatios(Json* object, const Classification& counts) {
   (*object)["f_score"] = counts.fScore();
 }
 
-Json coverageJson(const CoverageCounts& coverage) {
-  return {{"seen", coverage.seen},
-          {"evaluated", coverage.evaluated},
-          {"waiting", coverage.waiting},
-          {"unmatched", coverage.unmatched},
-          {"dropped", coverage.dropped},
-          {"no_ground_truth", coverage.no_ground_truth},
-          {"bad_ground_truth", coverage.bad_ground_truth},
-          {"skipped", coverage.skipped}};
+Json coverageJson(const Report& report) {
+  const CoverageCounts& coverage = report.coverage;
+  Json object = {{"input_images", nullptr},
+                 {"seen", coverage.seen},
+                 {"evaluated", coverage.evaluated},
+                 {"waiting", coverage.waiting},
+                 {"unmatched", coverage.unmatched},
+                 {"dropped", coverage.dropped},
+                 {"no_ground_truth", coverage.no_ground_truth},
+                 {"bad_ground_truth", coverage.bad_ground_truth},
+                 {"skipped", coverage.skipped}};
+  if (report.input_images) {
+    object["input_images"] = *report.input_images;
+  } else {
+    object["reason"] = "nobody counted the images of the input";
+  }
+  return object;
 }
 
 Json detectionJson(const Report& report) {
@@ -70,6 +78,9 @@ Json associationJson(const Report& report) {
     object["precision"] = object["recall"] = object["f_score"] = nullptr;
     object["reason"] = whyNoAssociation(report);
   }
+  if (!report.pairs_expected && report.pairs.evaluated > 0) {
+    object["reason"] = "the newest matches are between detected lines: no number is expected";
+  }
   object["counts"] = countsJson(report.association);
   object["not_evaluated"] = {{"detected_lines", report.pairs.detected_lines},
                              {"no_ground_truth", report.pairs.no_ground_truth},
@@ -102,7 +113,7 @@ std::string toJson(const Report& report) {
                {"protocol", toString(report.protocol)},
                {"complete", report.complete},
                {"pass", report.pass},
-               {"coverage", coverageJson(report.coverage)},
+               {"coverage", coverageJson(report)},
                {"detection", detectionJson(report)},
                {"association", associationJson(report)},
                {"timing",

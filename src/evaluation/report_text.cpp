@@ -65,6 +65,10 @@ std::string coverageLine(const Report& report) {
       text += "; " + std::to_string(count) + " " + name;
     }
   }
+  if (report.input_images && *report.input_images > coverage.seen) {
+    text += "; " + std::to_string(*report.input_images - coverage.seen) + " of the " +
+            std::to_string(*report.input_images) + " images of the input were never heard of";
+  }
   return text + ".";
 }
 

@@ -41,7 +41,11 @@ FrameRecord SequenceEvaluator::addFrame(std::uint32_t number, const LineSet& lin
   VectorizedMetrics frame(options_.vectorized);
   frame.addFrame(number, name, {lines.width, lines.height}, lines.lines, ground_truth.lines,
                  lines.scored);
-  detection_.merge(frame);
+  try {
+    detection_.merge(frame);
+  } catch (const Error& error) {
+    throw Error("frame " + name + ": " + error.what());
+  }
 
   FrameRecord record;
   record.stamp = lines.stamp;
@@ -67,8 +71,9 @@ PairRecord SequenceEvaluator::addPair(const MatchSet& matches, const LineSegment
   record.first_stamp = matches.first_stamp;
   record.stamp = matches.stamp;
   record.processing_time = matches.processing_time;
-  record.counts =
-      association_.addPair(toIndexPairs(matches.matches), pairsOfEqualIds(first, second));
+  record.counts = association_.addPair(
+      toIndexPairs(matches.matches),
+      pairsOfEqualIds(first, second, formatStamp(matches.first_stamp), formatStamp(matches.stamp)));
   return record;
 }
 

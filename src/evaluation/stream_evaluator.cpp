@@ -5,6 +5,13 @@
 
 namespace evolin {
 
+namespace {
+
+/// Results that a front-end of several threads may give out before the first one.
+constexpr std::size_t kMostSwapped = 8;
+
+}  // namespace
+
 StreamEvaluator::StreamEvaluator(PassOptions options) : options_(std::move(options)) {
   passes_.emplace(newest_, PassEvaluation(options_));
 }
@@ -13,12 +20,12 @@ std::optional<int> StreamEvaluator::passOf(Input input, Key key) {
   Follower& follower = followers_[input];
   if (follower.pass == 0) {
     follower.pass = newest_;
-  } else if (key == follower.last) {
+  } else if (key == follower.last || key == *follower.received.rbegin()) {
     return std::nullopt;
-  } else if (key < follower.last) {
+  } else {
     const bool seen_before = follower.received.count(key) != 0;
     const bool before_all = key < *follower.received.begin();
-    if (seen_before || before_all) {
+    if (seen_before || (before_all && !startedOutOfOrder(input, key.first))) {
       // An input that slept through a whole pass must not lag behind for ever.
       follower.pass = std::max(follower.pass + 1, newest_ - 1);
       follower.received.clear();
@@ -27,6 +34,17 @@ std::optional<int> StreamEvaluator::passOf(Input input, Key key) {
   follower.last = key;
   follower.received.insert(key);
   return follower.pass;
+}
+
+bool StreamEvaluator::startedOutOfOrder(Input input, Stamp stamp) const {
+  const Follower& follower = followers_[input];
+  if (follower.received.size() > kMostSwapped) {
+    return false;
+  }
+  return std::any_of(followers_.begin(), followers_.end(), [&](const Follower& other) {
+    return &other != &follower && other.pass == follower.pass &&
+           other.received.count({stamp, 0}) != 0;
+  });
 }
 
 PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* update) {

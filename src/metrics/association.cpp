@@ -40,9 +40,10 @@ IndexPairs sortedUnique(IndexPairs pairs) {
 
 }  // namespace
 
-IndexPairs pairsOfEqualIds(const LineSegments& first, const LineSegments& second) {
-  rowsById(first, "(first of the pair)");  // only to refuse repeated ids
-  const auto rows = rowsById(second, "(second of the pair)");
+IndexPairs pairsOfEqualIds(const LineSegments& first, const LineSegments& second,
+                           const std::string& first_name, const std::string& second_name) {
+  rowsById(first, first_name);  // only to refuse repeated ids
+  const auto rows = rowsById(second, second_name);
   IndexPairs pairs;
   for (std::size_t row = 0; row < first.size(); ++row) {
     const auto found = rows.find(first[row].id);

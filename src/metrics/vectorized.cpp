@@ -15,7 +15,6 @@ namespace evolin {
 namespace {
 
 constexpr double kScaledSide = 128;
-constexpr std::size_t kMaxSettings = 32;
 constexpr double kNoFilter = -std::numeric_limits<double>::infinity();
 
 LineSegment scaled(const LineSegment& line, ImageSize size) {
@@ -204,6 +203,15 @@ void VectorizedMetrics::addFrame(std::uint32_t frame_number, const std::string& 
   frames_.insert(place, {frame_number, static_cast<std::uint32_t>(truth.size())});
   if (!predicted.empty()) {
     scored_ = scored;
+  }
+}
+
+void VectorizedMetrics::makeRoom(std::uint32_t number) {
+  for (FrameCount& frame : frames_) {
+    frame.number += frame.number >= number ? 1 : 0;
+  }
+  for (Prediction& prediction : predictions_) {
+    prediction.frame += prediction.frame >= number ? 1 : 0;
   }
 }
 

@@ -29,14 +29,28 @@ std_msgs::Header headerAt(Stamp stamp, const char* frame_id) {
 
 struct BagWriter::Bag {
   std::string file;
-  rosbag::Bag bag;
+  std::unique_ptr<rosbag::Bag> bag = std::make_unique<rosbag::Bag>();
+
+  Bag() = default;
+  Bag(const Bag&) = delete;
+  Bag& operator=(const Bag&) = delete;
+
+  /// A bag that nobody closed is closed here. rosbag's own destructor would do that too, but ends
+  /// the program when the disk is full; a bag that cannot be closed is therefore left behind.
+  ~Bag() {
+    try {
+      bag->close();
+    } catch (const std::exception&) {
+      bag.release();  // NOLINT(bugprone-unused-return-value)
+    }
+  }
 
   template <class Message>
   void write(const char* topic, const std_msgs::Header& header, const Message& message) {
     if (header.stamp < ros::TIME_MIN) {
       throw Error(file + ": a bag cannot hold stamp 0 s; give the sequence stamps after 0");
     }
-    bag.write(topic, header.stamp, message);
+    bag->write(topic, header.stamp, message);
   }
 
   void writeImage(const Frame& frame, const std_msgs::Header& header) {
@@ -101,8 +115,8 @@ struct BagWriter::Bag {
 BagWriter::BagWriter(const std::filesystem::path& file) : bag_(std::make_unique<Bag>()) {
   bag_->file = file.string();
   try {
-    bag_->bag.open(bag_->file, rosbag::bagmode::Write);
-    bag_->bag.setCompression(rosbag::compression::LZ4);
+    bag_->bag->open(bag_->file, rosbag::bagmode::Write);
+    bag_->bag->setCompression(rosbag::compression::LZ4);
   } catch (const rosbag::BagException& error) {
     throw Error(bag_->file + ": cannot be written: " + error.what());
   }
@@ -128,7 +142,7 @@ void BagWriter::add(const SequenceFrame& frame) {
 
 void BagWriter::close() {
   try {
-    bag_->bag.close();
+    bag_->bag->close();
   } catch (const rosbag::BagException& error) {
     throw Error(bag_->file + ": cannot be closed: " + error.what());
   }

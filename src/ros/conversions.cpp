@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/base/text.h"
 
 namespace evolin::ros_shell {
 
@@ -47,6 +48,25 @@ std_msgs::Header makeHeader(Stamp stamp, const std::string& frame_id) {
   return header;
 }
 
+constexpr char kImageEncodings[] = "mono8, bgr8, rgb8, bgra8 or another 8-bit colour encoding";
+constexpr char kDepthEncodings[] = "32FC1 (metres) or 16UC1";
+
+Error unusable(const std::string& kind, const sensor_msgs::Image& image,
+               const std::string& expected, const std::string& reason) {
+  return Error(kind + " of encoding " + quote(image.encoding) + ", " + std::to_string(image.width) +
+               "x" + std::to_string(image.height) + ", step " + std::to_string(image.step) +
+               ": expected " + expected + " (" + reason + ")");
+}
+
+ros::Duration toDuration(double seconds) {
+  try {
+    return ros::Duration(seconds);
+  } catch (const std::runtime_error&) {
+    throw Error("processing time of " + formatDouble(seconds) +
+                " s: ROS 1 holds durations of up to 2147483647 s");
+  }
+}
+
 evolin_ros::ClassificationEntry entryOf(const std::string& name, const Classification& counts) {
   evolin_ros::ClassificationEntry entry;
   entry.name = name;
@@ -57,6 +77,26 @@ evolin_ros::ClassificationEntry entryOf(const std::string& name, const Classific
   entry.f_score = counts.fScore();
   entry.average_precision = kNotDefined;
   return entry;
+}
+
+/// K, width and height of the message are those of the whole, unbinned image; the camera's become
+/// those of the images that really come.
+void takeCutAndBinning(const sensor_msgs::CameraInfo& message, Camera* camera) {
+  const sensor_msgs::RegionOfInterest& cut = message.roi;
+  if (cut.width != 0 && cut.height != 0) {
+    camera->width = static_cast<int>(cut.width);
+    camera->height = static_cast<int>(cut.height);
+    camera->cx -= cut.x_offset;
+    camera->cy -= cut.y_offset;
+  }
+  const std::uint32_t across = std::max(message.binning_x, 1U);
+  const std::uint32_t down = std::max(message.binning_y, 1U);
+  camera->width /= static_cast<int>(across);
+  camera->height /= static_cast<int>(down);
+  camera->fx /= across;
+  camera->cx /= across;
+  camera->fy /= down;
+  camera->cy /= down;
 }
 
 }  // namespace
@@ -102,7 +142,7 @@ evolin_ros::LineArray toMessage(const LineSet& set) {
   message.height = static_cast<std::uint32_t>(set.height);
   message.source = set.source;
   message.has_scores = set.scored;
-  message.processing_time = ros::Duration(set.processing_time);
+  message.processing_time = toDuration(set.processing_time);
   message.lines.reserve(set.lines.size());
   for (const LineSegment& segment : set.lines) {
     message.lines.push_back(toMessage(segment));
@@ -131,7 +171,7 @@ evolin_ros::LineMatchArray toMessage(const MatchSet& set) {
   message.first_stamp = toRosTime(set.first_stamp);
   message.source = set.source;
   message.lines_source = set.lines_source;
-  message.processing_time = ros::Duration(set.processing_time);
+  message.processing_time = toDuration(set.processing_time);
   message.matches.reserve(set.matches.size());
   for (const LineMatch& match : set.matches) {
     evolin_ros::LineMatch pair;
@@ -154,6 +194,7 @@ Camera fromMessage(const sensor_msgs::CameraInfo& message) {
   camera.fy = message.K[4];
   camera.cx = message.K[2];
   camera.cy = message.K[5];
+  takeCutAndBinning(message, &camera);
   if (!message.distortion_model.empty()) {
     camera.distortion_model = message.distortion_model;
   }
@@ -188,6 +229,10 @@ Pose fromMessage(const geometry_msgs::PoseStamped& message) {
     throw Error("pose at " + formatStamp(fromRos(message.header.stamp)) +
                 " s: quaternion of norm " + std::to_string(norm) + ", expected 1");
   }
+  if (!pose.translation.allFinite()) {
+    throw Error("pose at " + formatStamp(fromRos(message.header.stamp)) +
+                " s: the position is not finite");
+  }
   pose.rotation.normalize();
   return pose;
 }
@@ -207,8 +252,8 @@ geometry_msgs::Pose toMessage(const Pose& pose) {
 Frame toFrame(const sensor_msgs::ImageConstPtr& message) {
   namespace encodings = sensor_msgs::image_encodings;
   const bool one_channel =
-      encodings::isMono(message->encoding) && encodings::bitDepth(message->encoding) == 8;
-  const std::string wanted = one_channel ? encodings::MONO8 : encodings::BGR8;
+      message->encoding == encodings::MONO8 || message->encoding == encodings::TYPE_8UC1;
+  const std::string wanted = one_channel ? message->encoding : encodings::BGR8;
   Frame frame;
   frame.stamp = fromRos(message->header.stamp);
   frame.name = formatStamp(frame.stamp);
@@ -216,33 +261,44 @@ Frame toFrame(const sensor_msgs::ImageConstPtr& message) {
     const cv_bridge::CvImageConstPtr shared = cv_bridge::toCvShare(message, wanted);
     frame.image = shared->image;
     frame.owner = std::make_shared<cv_bridge::CvImageConstPtr>(shared);
-  } catch (const cv_bridge::Exception& error) {
-    throw Error("image of encoding '" + message->encoding +
-                "': expected mono8, bgr8, rgb8, bgra8 or another 8-bit colour encoding (" +
-                error.what() + ")");
-  } catch (const cv::Exception& error) {
-    throw Error("image of encoding '" + message->encoding + "', " + std::to_string(message->width) +
-                "x" + std::to_string(message->height) + ", step " + std::to_string(message->step) +
-                ": unusable (" + error.what() + ")");
+  } catch (const std::exception& error) {  // cv_bridge's, OpenCV's and sensor_msgs' own
+    throw unusable("image", *message, kImageEncodings, error.what());
   }
   if (frame.image.empty()) {
     throw Error("image at " + frame.name + " s has no pixels");
+  }
+  if (frame.image.type() != CV_8UC1 && frame.image.type() != CV_8UC3) {
+    throw unusable("image", *message, kImageEncodings, "no 8-bit picture comes of it");
   }
   return frame;
 }
 
 cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor) {
   namespace encodings = sensor_msgs::image_encodings;
-  cv::Mat depth;
-  if (message->encoding == encodings::TYPE_32FC1) {
-    depth = cv_bridge::toCvShare(message)->image.clone();
-  } else if (message->encoding == encodings::TYPE_16UC1 || message->encoding == encodings::MONO16) {
-    cv_bridge::toCvShare(message)->image.convertTo(depth, CV_32F, 1 / depth_factor);
-  } else {
-    throw Error("depth image of encoding '" + message->encoding +
-                "': expected 32FC1 (metres) or 16UC1");
+  const bool metres = message->encoding == encodings::TYPE_32FC1;
+  if (!metres && message->encoding != encodings::TYPE_16UC1 &&
+      message->encoding != encodings::MONO16) {
+    throw unusable("depth image", *message, kDepthEncodings, "another encoding");
   }
-  depth.setTo(std::numeric_limits<float>::quiet_NaN(), depth == 0);
+  cv::Mat depth;
+  try {
+    cv::Mat stored = cv_bridge::toCvShare(message)->image.clone();
+    const int type = metres ? CV_32FC1 : CV_16UC1;
+    if (stored.type() != type) {
+      // cv_bridge swaps the bytes of big-endian images but returns them as channels of bytes.
+      stored = cv::Mat(stored.rows, stored.cols, type, stored.data).clone();
+    }
+    stored.convertTo(depth, CV_32F, metres ? 1 : 1 / depth_factor);
+  } catch (const std::exception& error) {
+    throw unusable("depth image", *message, kDepthEncodings, error.what());
+  }
+  if (depth.empty()) {
+    throw Error("depth image at " + formatStamp(fromRos(message->header.stamp)) +
+                " s has no pixels");
+  }
+  // Drivers write 0, NaN or an infinity where they saw nothing.
+  const cv::Mat none = ~((depth > 0) & (depth <= std::numeric_limits<float>::max()));
+  depth.setTo(std::numeric_limits<float>::quiet_NaN(), none);
   return depth;
 }
 

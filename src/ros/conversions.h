@@ -26,18 +26,21 @@ ros::Time toRosTime(Stamp stamp);
 /// `header.stamp` and `header.frame_id` become the set's; a leading slash of the frame is taken
 /// away. Values are taken as they are, NaN and infinities included.
 LineSet fromMessage(const evolin_ros::LineArray& message);
+/// As below, throws Error for a stamp or a processing time that ROS 1 cannot hold.
 evolin_ros::LineArray toMessage(const LineSet& set);
 
 MatchSet fromMessage(const evolin_ros::LineMatchArray& message);
 evolin_ros::LineMatchArray toMessage(const MatchSet& set);
 
 /// Throws Error naming what is wrong for an uncalibrated camera (K[0] == 0) or an unknown
-/// distortion model.
+/// distortion model. Binning and region of interest are applied: the camera is that of the images.
 Camera fromMessage(const sensor_msgs::CameraInfo& message);
 /// P is K without distortion, R the identity; binning and region of interest are those of the whole
 /// image.
 sensor_msgs::CameraInfo toMessage(const Camera& camera, const std_msgs::Header& header);
 
+/// The quaternion comes out normalised. Throws Error for one without length and for a position that
+/// is not finite.
 Pose fromMessage(const geometry_msgs::PoseStamped& message);
 geometry_msgs::Pose toMessage(const Pose& pose);
 
@@ -47,7 +50,7 @@ geometry_msgs::Pose toMessage(const Pose& pose);
 Frame toFrame(const sensor_msgs::ImageConstPtr& message);
 
 /// 16UC1 (divided by `depth_factor`) or 32FC1 (metres) as CV_32FC1 metres with NaN where there is
-/// none. Throws Error for another encoding.
+/// none (0, negative or not finite). Throws Error for another encoding or a malformed image.
 cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor);
 
 /// TUM's bags write "/world"; tf2 and everybody else "world".

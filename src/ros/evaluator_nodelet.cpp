@@ -189,6 +189,10 @@ class EvaluatorNodelet : public nodelet::Nodelet {
   /// What a report must carry to be understood later; asks the parameter server, so not under the
   /// lock.
   void addProvenance(Report* report) {
+    int images = 0;
+    if (getPrivateNodeHandle().getParam("input/images", images) && images >= 0) {
+      report->input_images = static_cast<std::size_t>(images);
+    }
     report->provenance["parameters"] = parametersAsJson(getPrivateNodeHandle().getNamespace());
     for (const std::string& name : options_.record_parameters) {
       const std::string resolved = getNodeHandle().resolveName(name);

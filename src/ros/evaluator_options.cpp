@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
 
 namespace evolin::ros_shell {
@@ -30,6 +31,12 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   reader.finish();
   vectorized.protocol = parseProtocol(protocol);
   options.pass.buffer = static_cast<std::size_t>(buffer);
+  const std::size_t most = VectorizedMetrics::kMaxSettings / vectorized.distances.size();
+  if (vectorized.distance_thresholds.size() > most) {
+    throw ConfigError(owner, "distance_thresholds",
+                      "expected at most " + std::to_string(most) + " numbers, got " +
+                          std::to_string(vectorized.distance_thresholds.size()));
+  }
   return options;
 }
 

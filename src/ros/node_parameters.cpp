@@ -15,34 +15,38 @@ namespace evolin::ros_shell {
 
 namespace {
 
-nlohmann::ordered_json toJson(const YAML::Node& node) {
-  if (node.IsMap()) {
-    nlohmann::ordered_json object = nlohmann::ordered_json::object();
-    for (const auto& entry : node) {
-      object[entry.first.Scalar()] = toJson(entry.second);
+nlohmann::ordered_json toJson(XmlRpc::XmlRpcValue value) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeInvalid:
+      return nullptr;
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value);
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return static_cast<int>(value);
+    case XmlRpc::XmlRpcValue::TypeDouble: {
+      const double number = static_cast<double>(value);
+      return std::isfinite(number) ? nlohmann::ordered_json(number)
+                                   : nlohmann::ordered_json(formatDouble(number));
     }
-    return object;
-  }
-  if (node.IsSequence()) {
-    nlohmann::ordered_json array = nlohmann::ordered_json::array();
-    for (const YAML::Node& element : node) {
-      array.push_back(toJson(element));
+    case XmlRpc::XmlRpcValue::TypeString:
+      return static_cast<std::string>(value);
+    case XmlRpc::XmlRpcValue::TypeArray: {
+      nlohmann::ordered_json array = nlohmann::ordered_json::array();
+      for (int i = 0; i < value.size(); ++i) {
+        array.push_back(toJson(value[i]));
+      }
+      return array;
     }
-    return array;
+    case XmlRpc::XmlRpcValue::TypeStruct: {
+      nlohmann::ordered_json object = nlohmann::ordered_json::object();
+      for (auto& [key, element] : value) {
+        object[key] = toJson(element);
+      }
+      return object;
+    }
+    default:
+      return "(binary data or a date)";
   }
-  if (!node.IsScalar()) {
-    return nullptr;
-  }
-  const std::string& text = node.Scalar();
-  if (text == "true" || text == "false") {
-    return text == "true";
-  }
-  if (const auto integer = parseInteger(text)) {
-    return *integer;
-  }
-  const auto number = parseDouble(text);
-  return number && std::isfinite(*number) ? nlohmann::ordered_json(*number)
-                                          : nlohmann::ordered_json(text);
 }
 
 }  // namespace
@@ -83,15 +87,23 @@ YAML::Node privateParameters(const ros::NodeHandle& handle) {
   return handle.getParam("", value) ? toYaml(value) : YAML::Node();
 }
 
+std::string toJsonText(const XmlRpc::XmlRpcValue& value) {
+  return toJson(value).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 std::string parametersAsJson(const std::string& name) {
   XmlRpc::XmlRpcValue value;
-  return ros::param::get(name, value) ? toJson(toYaml(value)).dump() : "null";
+  return ros::param::get(name, value) ? toJsonText(value) : "null";
 }
 
 YAML::Node mergedParameters(const std::string& config, const YAML::Node& overrides) {
   YAML::Node merged(YAML::NodeType::Map);
   if (!config.empty()) {
     const std::string file = expandPath(config);
+    // A folder opens like a file and reads as an empty one.
+    if (std::filesystem::is_directory(file)) {
+      throw Error(file + ": is a folder; expected a YAML file of parameters");
+    }
     try {
       const YAML::Node loaded = YAML::LoadFile(file);
       if (!loaded.IsMap() && !loaded.IsNull()) {

@@ -16,6 +16,10 @@ YAML::Node toYaml(XmlRpc::XmlRpcValue value);
 /// Everything below the handle's namespace as a map; null when there is nothing.
 YAML::Node privateParameters(const ros::NodeHandle& handle);
 
+/// Types as they are; what JSON cannot hold (NaN, infinities, binary data) as text, bytes that are
+/// not UTF-8 replaced. Never throws for a value.
+std::string toJsonText(const XmlRpc::XmlRpcValue& value);
+
 /// Everything below `name` as JSON text, "null" when there is nothing.
 std::string parametersAsJson(const std::string& name);
 

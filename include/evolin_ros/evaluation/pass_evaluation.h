@@ -62,7 +62,7 @@ class PassEvaluation {
  private:
   struct Entry {
     bool image = false;
-    std::optional<std::uint32_t> number;  ///< order of arrival of its lines
+    std::optional<std::uint32_t> number;  ///< place of its lines among all lines by stamp
     std::optional<LineSet> lines;         ///< until evaluated or released
     std::optional<LineSet> ground_truth;  ///< until released
     bool released = false;
@@ -71,6 +71,7 @@ class PassEvaluation {
   using PairKey = std::pair<Stamp, Stamp>;
 
   Entry& entryAt(Stamp stamp);
+  std::uint32_t placeOfLines(Stamp stamp);
   void setState(Entry* entry, FrameState state);
   void evaluateFrame(Entry* entry, EvaluationUpdate* update);
   void evaluatePairsOf(Stamp stamp, EvaluationUpdate* update);
@@ -93,6 +94,7 @@ class PassEvaluation {
   std::vector<std::string> notes_;
   std::size_t notes_left_out_ = 0;
   std::uint32_t lines_seen_ = 0;
+  std::optional<Stamp> newest_lines_;
   std::size_t ground_truth_seen_ = 0;
   std::optional<Stamp> newest_matches_;
   std::string lines_source_;

@@ -103,6 +103,9 @@ struct Report {
   std::string matches_source;
   std::string matches_lines_source;
   CoverageCounts coverage;
+  /// Images in the input where somebody counted them; more than coverage.seen: some never arrived
+  /// anywhere.
+  std::optional<std::size_t> input_images;
   std::size_t detection_frames = 0;
   bool scored = false;
   std::vector<DetectionEntry> detection;
@@ -112,8 +115,8 @@ struct Report {
   Classification association;
   TimingSummary detector_timing;
   TimingSummary associator_timing;
-  std::vector<FrameRecord> frames;  ///< every frame seen, by stamp
-  std::vector<PairRecord> pair_records;
+  std::vector<FrameRecord> frames;       ///< every frame seen, by stamp
+  std::vector<PairRecord> pair_records;  ///< every pair evaluated, by stamp
   std::vector<std::string>
       notes;  ///< what the reader must know: bad ground truth, unusable messages
   /// How the figures came about: JSON texts by key ("parameters", "input", "machine"), embedded as

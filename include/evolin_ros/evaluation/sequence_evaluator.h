@@ -30,6 +30,10 @@ class SequenceEvaluator {
   /// hold a prediction that the metric refuses; nothing is added then.
   FrameRecord addFrame(std::uint32_t number, const LineSet& lines, const LineSet& ground_truth);
 
+  /// Frames numbered `number` and above move up by one, so that a frame that came late can be added
+  /// in its place.
+  void makeRoom(std::uint32_t number) { detection_.makeRoom(number); }
+
   /// Scores matches between ground-truth lines. Throws Error when an index is beyond the lines of
   /// its frame, GroundTruthError when an id occurs twice in a frame; nothing is added then.
   PairRecord addPair(const MatchSet& matches, const LineSegments& first,

@@ -12,12 +12,12 @@
 
 namespace evolin {
 
-/// A stamp that an input has already had in this pass, or one before everything it has had, while
-/// the input's time runs back, is a jump back: that input has begun a new pass. Each input is
-/// followed on its own, because the last parts of a pass may come after another input has begun the
-/// next. A stamp merely out of order is taken where it belongs; a stamp that comes twice in a row
-/// is a duplicate and counts once. The two newest passes are kept. Not safe for several threads at
-/// once.
+/// A stamp that an input has already had in this pass, or one before everything it has had, is a
+/// jump back: that input has begun a new pass. Each input is followed on its own, because the last
+/// parts of a pass may come after another input has begun the next. A stamp merely out of order is
+/// taken where it belongs, at the start of a pass too if another input has had it in this pass; a
+/// stamp that comes twice in a row, or the newest one again, is a duplicate and counts once. The
+/// two newest passes are kept. Not safe for several threads at once.
 class StreamEvaluator {
  public:
   explicit StreamEvaluator(PassOptions options = {});
@@ -54,6 +54,9 @@ class StreamEvaluator {
 
   /// The pass that a part belongs to, or none for a duplicate.
   std::optional<int> passOf(Input input, Key key);
+  /// Whether a stamp before everything that the input has had belongs to the same pass all the
+  /// same.
+  bool startedOutOfOrder(Input input, Stamp stamp) const;
   PassEvaluation* enter(Input input, Key key, EvaluationUpdate* update);
 
   PassOptions options_;

@@ -2,15 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "evolin_ros/geometry/line_segment.h"
 #include "evolin_ros/metrics/classification.h"
 
 namespace evolin {
 
-/// Pairs (i, j) of lines with equal id >= 0; throws GroundTruthError when an id occurs twice in one
-/// frame.
-IndexPairs pairsOfEqualIds(const LineSegments& first, const LineSegments& second);
+/// Pairs (i, j) of lines with equal id >= 0; throws GroundTruthError, with the frame's name, when
+/// an id occurs twice in one frame.
+IndexPairs pairsOfEqualIds(const LineSegments& first, const LineSegments& second,
+                           const std::string& first_name = "(first of the pair)",
+                           const std::string& second_name = "(second of the pair)");
 
 IndexPairs toIndexPairs(const LineMatches& matches);
 

@@ -37,8 +37,10 @@ struct VectorizedOptions {
 /// bytes a prediction and a few a frame, never lines or images.
 class VectorizedMetrics {
  public:
-  /// Throws Error when there are no settings, more than 32, or a threshold that is not positive and
-  /// finite.
+  static constexpr std::size_t kMaxSettings = 32;
+
+  /// Throws Error when there are no settings, more than kMaxSettings, or a threshold that is not
+  /// positive and finite.
   explicit VectorizedMetrics(VectorizedOptions options = {});
 
   /// distances x thresholds, distance slowest: the order of every per-setting figure below.
@@ -54,6 +56,10 @@ class VectorizedMetrics {
   /// size, or a frame number that was there before; nothing is added then.
   void addFrame(std::uint32_t frame_number, const std::string& frame_name, ImageSize size,
                 const LineSegments& predicted, const LineSegments& ground_truth, bool scored);
+
+  /// Frames numbered `number` and above move up by one, so that a frame that came late can be added
+  /// in its place.
+  void makeRoom(std::uint32_t number);
 
   std::size_t frames() const { return frames_.size(); }
 

@@ -1,0 +1,308 @@
+// What becomes of every frame and pair of a pass, in whatever order its parts come.
+#include "evolin_ros/evaluation/pass_evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "test/evaluation/sample_frames.h"
+
+namespace evolin {
+namespace {
+
+using test::annotated;
+using test::detected;
+using test::expectCounts;
+using test::expectEqual;
+using test::expectSeenIsTheSum;
+using test::handLines;
+using test::handTruth;
+using test::kSecond;
+using test::kStructural10;
+using test::kStructural5;
+using test::line;
+using test::matchSet;
+using test::Part;
+using test::randomPass;
+using test::textOf;
+
+FrameState stateAt(const Report& report, Stamp stamp) {
+  for (const FrameRecord& frame : report.frames) {
+    if (frame.stamp == stamp) return frame.state;
+  }
+  ADD_FAILURE() << "no frame at " << formatStamp(stamp);
+  return FrameState::kWaiting;
+}
+
+PassOptions withBuffer(std::size_t buffer) {
+  PassOptions options;
+  options.buffer = buffer;
+  return options;
+}
+
+TEST(PassEvaluation, ScoresAFrameOnceBothPartsAreThere) {
+  PassEvaluation pass;
+  EXPECT_TRUE(pass.addImage(kSecond).frames.empty());
+  EXPECT_TRUE(pass.addLines(handLines(kSecond)).frames.empty());
+  EXPECT_EQ(pass.coverage().waiting, 1U);
+  const EvaluationUpdate update = pass.addGroundTruth(handTruth(kSecond));
+  ASSERT_EQ(update.frames.size(), 1U);
+  expectCounts(update.frames[0].entries[kStructural5].counts, 1, 3, 2);
+  EXPECT_EQ(pass.coverage().evaluated, 1U);
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.lines_source, "detector");
+  EXPECT_EQ(report.ground_truth_source, "ground_truth");
+  EXPECT_EQ(report.detection_frames, 1U);
+  EXPECT_TRUE(report.scored);
+  expectCounts(report.detection[kStructural10].counts, 2, 3, 2);
+}
+
+TEST(PassEvaluation, EveryFrameEndsInOneState) {
+  PassEvaluation pass(withBuffer(4));
+  pass.addImage(1);                   // its lines never come
+  pass.addGroundTruth(handTruth(2));  // has to leave the buffer before its lines come
+  pass.addLines(handLines(3));        // its ground truth never comes
+  pass.addLines(handLines(4));
+  pass.addGroundTruth(annotated(4, {line(9, 9, 9, 9)}));
+  LineSet other_size = handLines(5);
+  other_size.width = 64;
+  pass.addLines(other_size);
+  pass.addGroundTruth(handTruth(5));
+  pass.addLines(handLines(6));
+  pass.addGroundTruth(handTruth(6));
+  pass.addLines(handLines(2));
+  pass.addImage(7);
+
+  const Report now = pass.report(false);
+  EXPECT_EQ(stateAt(now, 1), FrameState::kWaiting);
+  EXPECT_EQ(stateAt(now, 2), FrameState::kDropped);
+  EXPECT_EQ(stateAt(now, 3), FrameState::kWaiting);
+  EXPECT_EQ(stateAt(now, 4), FrameState::kBadGroundTruth);
+  EXPECT_EQ(stateAt(now, 5), FrameState::kSkipped);
+  EXPECT_EQ(stateAt(now, 6), FrameState::kEvaluated);
+  EXPECT_EQ(now.coverage.waiting, 3U);
+  EXPECT_FALSE(now.complete);
+
+  const Report end = pass.report(true);
+  EXPECT_EQ(stateAt(end, 1), FrameState::kUnmatched);
+  EXPECT_EQ(stateAt(end, 3), FrameState::kNoGroundTruth);
+  EXPECT_EQ(end.coverage.seen, 7U);
+  EXPECT_EQ(end.coverage.waiting, 0U);
+  EXPECT_EQ(end.coverage.evaluated, 1U);
+  EXPECT_EQ(end.coverage.unmatched, 2U);
+  EXPECT_EQ(end.coverage.dropped, 1U);
+  EXPECT_EQ(end.coverage.no_ground_truth, 1U);
+  EXPECT_EQ(end.coverage.bad_ground_truth, 1U);
+  EXPECT_EQ(end.coverage.skipped, 1U);
+  EXPECT_TRUE(end.complete);
+  ASSERT_EQ(end.notes.size(), 2U);
+  EXPECT_NE(end.notes[0].find("row 0"), std::string::npos) << end.notes[0];
+  EXPECT_NE(end.notes[1].find("64x128"), std::string::npos) << end.notes[1];
+}
+
+TEST(PassEvaluation, AskingForTheEndDoesNotEndThePass) {
+  PassEvaluation pass;
+  pass.addLines(handLines(kSecond));
+  EXPECT_EQ(pass.report(true).coverage.no_ground_truth, 1U);
+  EXPECT_EQ(pass.coverage().waiting, 1U);
+  pass.addGroundTruth(handTruth(kSecond));
+  EXPECT_EQ(pass.report(true).coverage.evaluated, 1U);
+}
+
+TEST(PassEvaluation, PartsInAnyOrderGiveTheSameReport) {
+  const std::size_t frames = 20;
+  std::size_t evaluated_pairs = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    std::vector<Part> parts = randomPass(seed, frames);
+    PassEvaluation in_order;
+    for (const Part& part : parts) give(part, &in_order);
+    const Report expected = in_order.report(true);
+    // Four of the ten kinds of frame cannot be scored: 3, 4, 5 and 9.
+    EXPECT_EQ(expected.coverage.evaluated, 12U);
+    EXPECT_EQ(expected.coverage.seen, frames);
+    evaluated_pairs += expected.pairs.evaluated;
+
+    test::RandomLines random(1000 + seed);
+    for (int round = 0; round < 5; ++round) {
+      random.shuffle(&parts);
+      PassEvaluation shuffled;
+      for (const Part& part : parts) {
+        give(part, &shuffled);
+        expectEqual(shuffled.coverage(), shuffled.report(false).coverage);
+        expectSeenIsTheSum(shuffled.coverage());
+      }
+      ASSERT_EQ(textOf(shuffled.report(true)), textOf(expected)) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(evaluated_pairs, 0U);
+}
+
+TEST(PassEvaluation, EqualScoresAreRankedInOrderOfTime) {
+  // Hit, miss, hit: precision 1, 1/2, 2/3 at recall 1/3, 1/3, 2/3.
+  PassEvaluation pass;
+  for (const Stamp stamp : {3, 1, 2}) {
+    pass.addGroundTruth(annotated(stamp, {line(10, 10, 50, 30)}));
+    pass.addLines(
+        detected(stamp, {stamp == 2 ? line(10, 100, 40, 110, 0.5) : line(10, 10, 50, 30, 0.5)}));
+  }
+  EXPECT_DOUBLE_EQ(pass.report(true).detection[kStructural5].average_precision.value(),
+                   (0.5 + 2.0 / 3) / 2 / 3);
+}
+
+TEST(PassEvaluation, TakesGroundTruthThatComesAfterEverything) {
+  PassEvaluation pass;
+  for (Stamp stamp = 1; stamp <= 500; ++stamp) {
+    pass.addImage(stamp);
+    pass.addLines(handLines(stamp));
+    if (stamp > 1) pass.addMatches(matchSet(stamp - 1, stamp, "ground_truth", {{0, 0}, {1, 0}}));
+  }
+  EXPECT_EQ(pass.coverage().waiting, 500U);
+  EXPECT_EQ(pass.report(false).pairs.no_ground_truth, 499U);
+  std::size_t pairs = 0;
+  for (Stamp stamp = 500; stamp >= 1; --stamp) {
+    pairs += pass.addGroundTruth(handTruth(stamp)).pairs.size();
+  }
+  EXPECT_EQ(pairs, 499U);
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.coverage.evaluated, 500U);
+  EXPECT_EQ(report.pairs.evaluated, 499U);
+  EXPECT_EQ(report.pairs_expected, 499U);
+  EXPECT_EQ(report.pairs.no_ground_truth, 0U);
+  expectCounts(report.association, 499, 998, 998);
+  expectCounts(report.detection[kStructural5].counts, 500, 1500, 1000);
+}
+
+TEST(PassEvaluation, AFullBufferLetsTheOldestGoAndCountsIt) {
+  PassEvaluation pass(withBuffer(10));
+  for (Stamp stamp = 1; stamp <= 30; ++stamp) pass.addLines(handLines(stamp));
+  EXPECT_EQ(pass.coverage().no_ground_truth, 20U);
+  EXPECT_EQ(pass.coverage().waiting, 10U);
+  for (Stamp stamp = 1; stamp <= 30; ++stamp) {
+    pass.addGroundTruth(handTruth(stamp));
+    expectEqual(pass.coverage(), pass.report(false).coverage);
+    expectSeenIsTheSum(pass.coverage());
+  }
+  EXPECT_EQ(pass.coverage().dropped, 20U);
+  EXPECT_EQ(pass.coverage().evaluated, 10U);
+  EXPECT_EQ(pass.coverage().seen, 30U);
+}
+
+TEST(PassEvaluation, AFullBufferOfMatchesCountsTheOldest) {
+  PassEvaluation pass(withBuffer(5));
+  for (Stamp stamp = 1; stamp <= 12; ++stamp) {
+    pass.addMatches(matchSet(stamp, stamp + 1, "ground_truth", {{0, 0}}));
+  }
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.pairs.no_ground_truth, 12U);
+  EXPECT_EQ(report.pairs.evaluated, 0U);
+  EXPECT_EQ(whyNoAssociation(report), "not evaluated: no ground truth for the matched frames");
+}
+
+TEST(PassEvaluation, MatchesBetweenDetectedLinesAreNotEvaluated) {
+  for (const bool ground_truth_first : {true, false}) {
+    PassEvaluation pass;
+    if (ground_truth_first) {
+      pass.addGroundTruth(handTruth(1));
+      pass.addGroundTruth(handTruth(2));
+    }
+    pass.addLines(handLines(1));
+    pass.addLines(handLines(2));
+    pass.addMatches(matchSet(1, 2, "detector", {{0, 0}}));
+    EXPECT_EQ(pass.report(false).pairs.detected_lines, 1U);
+    if (!ground_truth_first) {
+      pass.addGroundTruth(handTruth(1));
+      pass.addGroundTruth(handTruth(2));
+    }
+    const Report report = pass.report(true);
+    EXPECT_EQ(report.pairs.detected_lines, 1U);
+    EXPECT_EQ(report.pairs.evaluated, 0U);
+    EXPECT_FALSE(report.pairs_expected.has_value());
+    EXPECT_EQ(whyNoAssociation(report), "not evaluated: detected lines");
+    EXPECT_NE(toMarkdown(report).find("not evaluated: detected lines"), std::string::npos);
+  }
+}
+
+TEST(PassEvaluation, UnusableMatchesAreSkippedWithANote) {
+  PassEvaluation pass;
+  for (const Stamp stamp : {1, 2, 3}) pass.addGroundTruth(handTruth(stamp));
+  LineSet twice = handTruth(4);
+  twice.lines[1].id = 0;
+  pass.addGroundTruth(twice);
+  EXPECT_EQ(pass.addMatches(matchSet(1, 2, "ground_truth", {{0, 7}})).notes.size(), 1U);
+  EXPECT_EQ(pass.addMatches(matchSet(3, 4, "ground_truth", {{0, 0}})).notes.size(), 1U);
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.pairs.skipped, 1U);
+  EXPECT_EQ(report.pairs.bad_ground_truth, 1U);
+  EXPECT_EQ(report.pairs.evaluated, 0U);
+  EXPECT_EQ(whyNoAssociation(report), "not evaluated: no usable pair, see the notes");
+  EXPECT_NE(report.notes.at(0).find("(0, 7)"), std::string::npos);
+  EXPECT_NE(report.notes.at(1).find("id 0"), std::string::npos);
+}
+
+TEST(PassEvaluation, ExpectsPairsByTheFrameStep) {
+  PassOptions options;
+  options.frame_step = 3;
+  PassEvaluation pass(options);
+  pass.addMatches(matchSet(1, 4, "ground_truth", {}));
+  for (const Stamp stamp : {1, 2}) pass.addGroundTruth(handTruth(stamp));
+  EXPECT_EQ(pass.report(false).pairs_expected, 0U);
+  for (const Stamp stamp : {3, 4, 5}) pass.addGroundTruth(handTruth(stamp));
+  EXPECT_EQ(pass.report(false).pairs_expected, 2U);
+  EXPECT_EQ(pass.report(false).pairs.evaluated, 1U);
+}
+
+TEST(PassEvaluation, WaitsForLinesAndForTheNewestMatches) {
+  PassEvaluation pass;
+  EXPECT_FALSE(pass.waiting());
+  pass.addImage(1);
+  EXPECT_TRUE(pass.waiting());
+  pass.addLines(handLines(1));
+  EXPECT_FALSE(pass.waiting()) << "ground truth may never come";
+  pass.addGroundTruth(handTruth(2));
+  EXPECT_TRUE(pass.waiting());
+  pass.addLines(handLines(2));
+  EXPECT_FALSE(pass.waiting()) << "nobody sends matches";
+  pass.addMatches(matchSet(1, 2, "detector", {}));
+  EXPECT_FALSE(pass.waiting());
+  pass.addLines(handLines(3));
+  EXPECT_TRUE(pass.waiting());
+  pass.addMatches(matchSet(2, 3, "detector", {}));
+  EXPECT_FALSE(pass.waiting());
+}
+
+TEST(PassEvaluation, TimesThatAreNoneAreNotMeasured) {
+  PassEvaluation pass;
+  Stamp stamp = 0;
+  for (const double time : {0.2, 0.4, 0.0, -1.0, std::numeric_limits<double>::infinity(),
+                            std::numeric_limits<double>::quiet_NaN()}) {
+    LineSet lines = handLines(++stamp);
+    lines.processing_time = time;
+    pass.addLines(lines);
+    MatchSet matches = matchSet(stamp - 1, stamp, "ground_truth", {});
+    matches.processing_time = time;
+    pass.addMatches(matches);
+  }
+  const Report report = pass.report(true);
+  for (const TimingSummary& timing : {report.detector_timing, report.associator_timing}) {
+    EXPECT_EQ(timing.frames, 2U);
+    EXPECT_DOUBLE_EQ(timing.mean, 0.3);
+    EXPECT_DOUBLE_EQ(timing.rate, 1 / 0.3);
+  }
+}
+
+TEST(PassEvaluation, KeepsAHundredNotesAndSaysHowManyMore) {
+  PassEvaluation pass;
+  std::size_t told = 0;
+  for (Stamp stamp = 1; stamp <= 130; ++stamp) {
+    pass.addLines(handLines(stamp));
+    told += pass.addGroundTruth(annotated(stamp, {line(9, 9, 9, 9)})).notes.size();
+  }
+  EXPECT_EQ(told, 130U);
+  const Report report = pass.report(true);
+  ASSERT_EQ(report.notes.size(), 101U);
+  EXPECT_EQ(report.notes.back(), "and 30 more of these");
+  EXPECT_EQ(report.coverage.bad_ground_truth, 130U);
+}
+
+}  // namespace
+}  // namespace evolin

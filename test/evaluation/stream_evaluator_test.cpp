@@ -1,0 +1,232 @@
+// Telling passes apart: loops, stragglers, duplicates, late starts and mere disorder.
+#include "evolin_ros/evaluation/stream_evaluator.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "test/evaluation/sample_frames.h"
+
+namespace evolin {
+namespace {
+
+using test::expectCounts;
+using test::expectEqual;
+using test::handLines;
+using test::handTruth;
+using test::kStructural5;
+using test::matchSet;
+using test::Part;
+using test::randomPass;
+using test::textOf;
+
+/// What one pass over `parts` gives.
+std::string reportOfOnePass(const std::vector<Part>& parts) {
+  PassEvaluation pass;
+  for (const Part& part : parts) give(part, &pass);
+  return textOf(pass.report(true));
+}
+
+TEST(StreamEvaluator, ALoopGivesTheFiguresOfOnePassInEach) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const std::vector<Part> parts = randomPass(seed, 10);
+    const std::string expected = reportOfOnePass(parts);
+    StreamEvaluator stream;
+    EXPECT_FALSE(stream.previousReport().has_value());
+    for (int pass = 1; pass <= 4; ++pass) {
+      bool begun = false;
+      for (const Part& part : parts) {
+        begun = give(part, &stream).new_pass || begun;
+        expectEqual(stream.coverage(), stream.report(false).coverage);
+      }
+      EXPECT_EQ(begun, pass > 1);
+      EXPECT_EQ(stream.pass(), pass);
+      EXPECT_EQ(stream.report(true).pass, pass);
+      EXPECT_EQ(textOf(stream.report(true)), expected);
+      if (pass > 1) {
+        EXPECT_EQ(stream.previousReport()->pass, pass - 1);
+        EXPECT_TRUE(stream.previousReport()->complete);
+        EXPECT_EQ(textOf(*stream.previousReport()), expected);
+      }
+    }
+  }
+}
+
+TEST(StreamEvaluator, StragglersCountInTheirOwnPass) {
+  // Lines lag two frames behind, matches three: a loop begins for images and ground truth while
+  // the others still send the pass before.
+  const std::vector<Part> parts = randomPass(3, 10);
+  const std::string expected = reportOfOnePass(parts);
+  StreamEvaluator stream;
+  std::deque<Part> lines;
+  std::deque<Part> matches;
+  const auto release = [&stream](std::deque<Part>* queue, std::size_t lag) {
+    while (queue->size() > lag) {
+      give(queue->front(), &stream);
+      queue->pop_front();
+    }
+  };
+  for (int pass = 1; pass <= 5; ++pass) {
+    for (const Part& part : parts) {
+      if (part.kind == Part::kLines) {
+        lines.push_back(part);
+      } else if (part.kind == Part::kMatches) {
+        matches.push_back(part);
+      } else {
+        give(part, &stream);
+      }
+      release(&lines, 2);
+      release(&matches, 3);
+    }
+    if (pass > 1) {
+      EXPECT_EQ(textOf(*stream.previousReport()), expected) << "pass " << pass - 1;
+    }
+  }
+  release(&lines, 0);
+  release(&matches, 0);
+  EXPECT_EQ(stream.pass(), 5);
+  EXPECT_EQ(textOf(stream.report(true)), expected);
+}
+
+TEST(StreamEvaluator, ADuplicateCountsOnce) {
+  const std::vector<Part> parts = randomPass(5, 10);
+  StreamEvaluator stream;
+  for (const Part& part : parts) {
+    give(part, &stream);
+    const EvaluationUpdate update = give(part, &stream);
+    EXPECT_TRUE(update.frames.empty() && update.pairs.empty() && update.notes.empty());
+    EXPECT_FALSE(update.new_pass);
+  }
+  EXPECT_EQ(stream.pass(), 1);
+  EXPECT_EQ(textOf(stream.report(true)), reportOfOnePass(parts));
+}
+
+TEST(StreamEvaluator, TheNewestFrameAgainAfterALateOneIsADuplicate) {
+  StreamEvaluator stream;
+  for (const Stamp stamp : {1, 3, 2, 3, 4}) {
+    stream.addLines(handLines(stamp));
+  }
+  for (const Stamp stamp : {1, 2, 3, 4}) stream.addGroundTruth(handTruth(stamp));
+  EXPECT_EQ(stream.pass(), 1);
+  const Report report = stream.report(true);
+  EXPECT_EQ(report.coverage.seen, 4U);
+  expectCounts(report.detection[kStructural5].counts, 4, 12, 8);
+}
+
+TEST(StreamEvaluator, AFrameThatWasThereBeforeTheNewestBeginsAPass) {
+  // The first pass lost frame 2; the second begins with it and is recognised by frame 3.
+  StreamEvaluator stream;
+  for (const Stamp stamp : {1, 3, 4, 5}) stream.addLines(handLines(stamp));
+  EXPECT_FALSE(stream.addLines(handLines(2)).new_pass);
+  EXPECT_TRUE(stream.addLines(handLines(3)).new_pass);
+  for (const Stamp stamp : {4, 5}) stream.addLines(handLines(stamp));
+  EXPECT_EQ(stream.pass(), 2);
+  EXPECT_EQ(stream.report(true).coverage.seen, 3U);
+  EXPECT_EQ(stream.previousReport()->coverage.seen, 5U);
+}
+
+TEST(StreamEvaluator, AnInputThatStartsLateJoinsThePassThatRuns) {
+  const std::vector<Part> parts = randomPass(7, 10);
+  StreamEvaluator stream;
+  for (const Part& part : parts) {
+    if (part.kind != Part::kGroundTruth) give(part, &stream);
+  }
+  EXPECT_EQ(stream.coverage().evaluated, 0U);
+  for (const Part& part : parts) {
+    if (part.kind == Part::kGroundTruth) give(part, &stream);
+  }
+  EXPECT_EQ(stream.pass(), 1);
+  EXPECT_EQ(textOf(stream.report(true)), reportOfOnePass(parts));
+
+  // One that starts in the second pass does not go back to the first.
+  StreamEvaluator looped;
+  for (int pass = 1; pass <= 2; ++pass) {
+    for (const Part& part : parts) {
+      if (pass == 2 || part.kind != Part::kGroundTruth) give(part, &looped);
+    }
+  }
+  EXPECT_EQ(looped.previousReport()->coverage.evaluated, 0U);
+  EXPECT_EQ(textOf(looped.report(true)), reportOfOnePass(parts));
+}
+
+TEST(StreamEvaluator, AnInputThatStartedMidwayFollowsTheLoop) {
+  StreamEvaluator stream;
+  for (Stamp stamp = 1; stamp <= 40; ++stamp) {
+    stream.addImage(stamp);
+    stream.addGroundTruth(handTruth(stamp));
+    if (stamp > 20) stream.addLines(handLines(stamp));
+  }
+  for (Stamp stamp = 1; stamp <= 40; ++stamp) {
+    stream.addImage(stamp);
+    stream.addGroundTruth(handTruth(stamp));
+    stream.addLines(handLines(stamp));
+  }
+  EXPECT_EQ(stream.pass(), 2);
+  EXPECT_EQ(stream.previousReport()->coverage.evaluated, 20U);
+  EXPECT_EQ(stream.report(true).coverage.evaluated, 40U);
+}
+
+TEST(StreamEvaluator, AnInputThatSleptThroughPassesCatchesUp) {
+  StreamEvaluator stream;
+  stream.addLines(handLines(5));
+  for (int pass = 1; pass <= 6; ++pass) {
+    for (const Stamp stamp : {4, 5, 6}) stream.addImage(stamp);
+  }
+  EXPECT_EQ(stream.pass(), 6);
+  // Back in time once: the pass before the newest. Once more: the newest.
+  stream.addLines(handLines(4));
+  EXPECT_EQ(stream.previousReport()->frames.at(0).lines, 3U);
+  stream.addLines(handLines(4 - 1));
+  EXPECT_EQ(stream.pass(), 6);
+  EXPECT_EQ(stream.report(true).coverage.seen, 4U);
+}
+
+TEST(StreamEvaluator, DisorderIsNoJump) {
+  StreamEvaluator stream;
+  for (const Stamp stamp : {1, 2, 3, 4, 5, 6, 7, 8}) stream.addGroundTruth(handTruth(stamp));
+  for (const Stamp stamp : {1, 3, 2, 6, 5, 4, 8, 7}) stream.addLines(handLines(stamp));
+  for (const Stamp stamp : {2, 4, 3, 5, 8, 6, 7}) {
+    stream.addMatches(matchSet(stamp - 1, stamp, "ground_truth", {{0, 0}}));
+  }
+  EXPECT_EQ(stream.pass(), 1);
+  const Report report = stream.report(true);
+  EXPECT_EQ(report.coverage.evaluated, 8U);
+  EXPECT_EQ(report.pairs.evaluated, 7U);
+}
+
+TEST(StreamEvaluator, DisorderAtTheStartIsNoJumpWhereAnotherInputKnowsTheFrame) {
+  for (const bool known : {true, false}) {
+    StreamEvaluator stream;
+    for (Stamp stamp = known ? 1 : 2; stamp <= 4; ++stamp) stream.addImage(stamp);
+    EXPECT_FALSE(stream.addLines(handLines(2)).new_pass);
+    EXPECT_EQ(stream.addLines(handLines(1)).new_pass, !known);
+    stream.addLines(handLines(3));
+    EXPECT_EQ(stream.pass(), known ? 1 : 2);
+    EXPECT_EQ(stream.coverage().seen, known ? 4U : 2U);
+  }
+}
+
+TEST(StreamEvaluator, ResetForgetsPassesToo) {
+  const std::vector<Part> parts = randomPass(9, 10);
+  PassOptions options;
+  options.evaluation.vectorized.distance_thresholds = {7};
+  StreamEvaluator stream(options);
+  for (int pass = 1; pass <= 3; ++pass) {
+    for (const Part& part : parts) give(part, &stream);
+  }
+  stream.reset();
+  EXPECT_EQ(stream.pass(), 1);
+  EXPECT_EQ(stream.coverage().seen, 0U);
+  EXPECT_FALSE(stream.previousReport().has_value());
+  EXPECT_FALSE(stream.waiting());
+  PassEvaluation reference(options);
+  for (const Part& part : parts) {
+    EXPECT_FALSE(give(part, &stream).new_pass);
+    give(part, &reference);
+  }
+  EXPECT_EQ(textOf(stream.report(true)), textOf(reference.report(true)));
+  EXPECT_EQ(stream.report(true).detection.size(), 2U);
+}
+
+}  // namespace
+}  // namespace evolin

@@ -1,0 +1,83 @@
+// The evaluator's parameters: defaults, ranges, and errors that name the parameter.
+#include "evaluator_options.h"
+
+#include <gtest/gtest.h>
+
+#include "evolin_ros/base/error.h"
+#include "evolin_ros/evaluation/stream_evaluator.h"
+#include "test/support/expect_error.h"
+
+namespace evolin::ros_shell {
+namespace {
+
+EvaluatorOptions read(const std::string& yaml) {
+  return readEvaluatorOptions(YAML::Load(yaml), "/evaluator");
+}
+
+TEST(EvaluatorOptions, HaveTheDocumentedDefaults) {
+  const EvaluatorOptions options = readEvaluatorOptions(YAML::Node(), "/evaluator");
+  EXPECT_EQ(options.pass.evaluation.vectorized.protocol, Protocol::kEvolin);
+  EXPECT_EQ(options.pass.evaluation.vectorized.distance_thresholds,
+            (std::vector<double>{5, 10, 15}));
+  EXPECT_EQ(options.pass.frame_step, 1);
+  EXPECT_EQ(options.pass.buffer, 1000U);
+  EXPECT_EQ(options.output_dir, "");
+  EXPECT_EQ(options.save_period, 5);
+  EXPECT_EQ(options.idle_timeout, 2);
+  EXPECT_EQ(options.drain_timeout, 5);
+  EXPECT_EQ(options.warn_after, 3);
+  EXPECT_TRUE(options.record_parameters.empty());
+}
+
+TEST(EvaluatorOptions, AreReadOneByOne) {
+  const EvaluatorOptions options = read(
+      "{protocol: paper, distance_thresholds: [2.5, 7], frame_step: 10, buffer: 50,"
+      " output_dir: /tmp/x, save_period: 0.5, idle_timeout: 0, drain_timeout: 9,"
+      " warn_after: 0, record_parameters: [/detector, associator],"
+      " input: {bag: a.bag, images: 3}}");
+  EXPECT_EQ(options.pass.evaluation.vectorized.protocol, Protocol::kPaper);
+  EXPECT_EQ(options.pass.evaluation.vectorized.distance_thresholds, (std::vector<double>{2.5, 7}));
+  EXPECT_EQ(options.pass.frame_step, 10);
+  EXPECT_EQ(options.pass.buffer, 50U);
+  EXPECT_EQ(options.output_dir, "/tmp/x");
+  EXPECT_EQ(options.save_period, 0.5);
+  EXPECT_EQ(options.idle_timeout, 0);
+  EXPECT_EQ(options.drain_timeout, 9);
+  EXPECT_EQ(options.warn_after, 0);
+  EXPECT_EQ(options.record_parameters, (std::vector<std::string>{"/detector", "associator"}));
+}
+
+TEST(EvaluatorOptions, RefuseByNameWithValueAndRange) {
+  const auto expectRefusal = [](const std::string& yaml, const std::string& key,
+                                const std::string& part) {
+    test::expectError<ConfigError>([&] { read(yaml); }, {"/evaluator", "'" + key + "'", part});
+  };
+  expectRefusal("protocol: evolution", "protocol", "evolin, paper");
+  expectRefusal("distance_thresholds: [5, 0]", "distance_thresholds", "'0'");
+  expectRefusal("distance_thresholds: [.nan]", "distance_thresholds", "nan");
+  expectRefusal("distance_thresholds: []", "distance_thresholds", "got an empty list");
+  expectRefusal("distance_thresholds: 5", "distance_thresholds", "list");
+  expectRefusal("frame_step: 0", "frame_step", "'0'");
+  expectRefusal("frame_step: 1.5", "frame_step", "'1.5'");
+  expectRefusal("buffer: 1", "buffer", "from 2 to 1000000");
+  expectRefusal("save_period: 0", "save_period", "0.01");
+  expectRefusal("idle_timeout: -1", "idle_timeout", "'-1'");
+  expectRefusal("drain_timeout: .inf", "drain_timeout", "inf");
+  expectRefusal("warn_after: soon", "warn_after", "'soon'");
+  expectRefusal("record_parameters: /detector", "record_parameters", "list");
+  expectRefusal("input: a.bag", "input", "map");
+  expectRefusal("frame_steps: 3", "frame_steps", "did you mean 'frame_step'");
+  test::expectError<ConfigError>([] { read("[1, 2]"); }, {"/evaluator", "map"});
+}
+
+TEST(EvaluatorOptions, TakeAsManyThresholdsAsTheMetricDoes) {
+  std::string numbers = "1";
+  for (int i = 2; i <= 16; ++i) numbers += ", " + std::to_string(i);
+  const EvaluatorOptions most = read("distance_thresholds: [" + numbers + "]");
+  EXPECT_EQ(StreamEvaluator(most.pass).report(false).detection.size(), 32U);
+  test::expectError<ConfigError>([&] { read("distance_thresholds: [" + numbers + ", 17]"); },
+                                 {"'distance_thresholds'", "at most 16", "got 17"});
+}
+
+}  // namespace
+}  // namespace evolin::ros_shell
