@@ -2,6 +2,7 @@
 #include "evolin_ros/evaluation/stream_evaluator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace evolin {
 
@@ -56,7 +57,11 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* u
     newest_ = *pass;
     update->new_pass = true;
     passes_.emplace(newest_, PassEvaluation(options_));
-    passes_.erase(passes_.begin(), passes_.lower_bound(newest_ - 1));
+    while (passes_.begin()->first < newest_ - 1) {
+      released_ = passes_.begin()->second.report(true);
+      released_->pass = passes_.begin()->first;
+      passes_.erase(passes_.begin());
+    }
   }
   const auto found = passes_.find(*pass);
   return found == passes_.end() ? nullptr : &found->second;
@@ -108,6 +113,10 @@ std::optional<Report> StreamEvaluator::previousReport() const {
   Report report = found->second.report(true);
   report.pass = newest_ - 1;
   return report;
+}
+
+std::optional<Report> StreamEvaluator::takeReleasedReport() {
+  return std::exchange(released_, std::nullopt);
 }
 
 bool StreamEvaluator::waiting() const { return current().waiting(); }

@@ -125,6 +125,7 @@ class EvaluatorNodelet : public nodelet::Nodelet {
   void take(const std::string& topic, const std_msgs::Header& header, const Add& add) {
     const std::string name = getNodeHandle().resolveName(topic);
     watchdog_->heard(name);
+    std::optional<Report> released;
     std::optional<Report> finished;
     EvaluationUpdate update;
     {
@@ -137,12 +138,16 @@ class EvaluatorNodelet : public nodelet::Nodelet {
       ++inputs_;
       update = add();
       if (update.new_pass) {
+        released = evaluator_->takeReleasedReport();
         finished = evaluator_->previousReport();
       }
       publish(update, header);
     }
     for (const std::string& note : update.notes) {
       NODELET_WARN_THROTTLE(5, "%s: %s", name.c_str(), note.c_str());
+    }
+    if (released) {
+      writeQuietly(std::move(*released));
     }
     if (finished) {
       NODELET_INFO("%s: time jumped back to %.6f, pass %d begins", name.c_str(),

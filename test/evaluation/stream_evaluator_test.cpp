@@ -88,6 +88,23 @@ TEST(StreamEvaluator, StragglersCountInTheirOwnPass) {
   EXPECT_EQ(textOf(stream.report(true)), expected);
 }
 
+TEST(StreamEvaluator, APassThatLeavesMemoryIsGivenOutOnce) {
+  const std::vector<Part> parts = randomPass(5, 10);
+  const std::string expected = reportOfOnePass(parts);
+  StreamEvaluator stream;
+  for (int pass = 1; pass <= 2; ++pass) {
+    for (const Part& part : parts) give(part, &stream);
+    EXPECT_FALSE(stream.takeReleasedReport().has_value());
+  }
+  EXPECT_TRUE(give(parts.front(), &stream).new_pass);
+  const std::optional<Report> released = stream.takeReleasedReport();
+  ASSERT_TRUE(released.has_value());
+  EXPECT_EQ(released->pass, 1);
+  EXPECT_TRUE(released->complete);
+  EXPECT_EQ(textOf(*released), expected);
+  EXPECT_FALSE(stream.takeReleasedReport().has_value());
+}
+
 TEST(StreamEvaluator, ADuplicateCountsOnce) {
   const std::vector<Part> parts = randomPass(5, 10);
   StreamEvaluator stream;

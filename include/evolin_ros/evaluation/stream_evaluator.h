@@ -33,6 +33,10 @@ class StreamEvaluator {
   /// Of the pass before it, which is complete; none when the newest is the first.
   std::optional<Report> previousReport() const;
 
+  /// Of the pass that the newest one has pushed out of memory, with the parts that came after its
+  /// successor had begun; given once.
+  std::optional<Report> takeReleasedReport();
+
   /// Of the newest pass, cheap at any number of frames.
   CoverageCounts coverage() const { return current().coverage(); }
 
@@ -62,6 +66,7 @@ class StreamEvaluator {
   PassOptions options_;
   std::array<Follower, kInputs> followers_;
   std::map<int, PassEvaluation> passes_;
+  std::optional<Report> released_;
   int newest_ = 1;
 };
 

@@ -1,0 +1,209 @@
+// A bag, played by scripts/play_bag through detector, associator and evaluator in one manager,
+// gives the figures of an evaluation without any topic between.
+#include <gtest/gtest.h>
+#include <ros/param.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "bag_writer.h"
+#include "online_stream.h"
+#include "plugin_loader.h"
+#include "test/support/drawn_sequence.h"
+#include "test/support/shared_data.h"
+
+namespace evolin::test {
+namespace {
+
+const char* const kPlayer = EVOLIN_SOURCE_DIR "/scripts/play_bag";
+
+void writeBag(const std::vector<SequenceFrame>& frames, const std::filesystem::path& file) {
+  BagWriter writer(file);
+  for (const SequenceFrame& frame : frames) {
+    writer.add(frame);
+  }
+  writer.close();
+}
+
+/// What the sha256sum program says of a file.
+std::string sha256(const std::filesystem::path& file) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> output(
+      popen(("sha256sum '" + file.string() + "'").c_str(), "r"), pclose);
+  char digits[65] = {};
+  return output != nullptr && std::fscanf(output.get(), "%64s", digits) == 1 ? digits : "";
+}
+
+/// Evaluator, detector and associator on the topics of a bag, and the player.
+class BagRun {
+ public:
+  BagRun(const std::filesystem::path& bag, const std::string& detector)
+      : bag_(bag), manager_(testNamespace()) {
+    const std::string& space = manager_.space();
+    ros::param::set(space + "/evaluator/output_dir", folder_.path().string());
+    ros::param::set(space + "/detector/detector", detector);
+    ros::param::set(space + "/player/bag", bag.string());
+    ros::param::set(space + "/player/image_topic", "/camera/rgb/image_color");
+    ros::param::set(space + "/player/wait_for", std::vector<std::string>{"lines", "matches"});
+    ros::param::set(space + "/player/finish", std::vector<std::string>{"evaluator/finish"});
+    for (const char* method : {"detector", "associator"}) {
+      ros::param::set(space + "/" + method + "/lazy", false);
+      ros::param::set(space + "/" + method + "/queue_size", 300);
+    }
+    EXPECT_TRUE(load("evaluator", "Evaluator"));
+    EXPECT_TRUE(load("detector", "LineDetector"));
+    EXPECT_TRUE(load("associator", "LineAssociator", {{"lines", "/ground_truth/lines"}}));
+  }
+
+  /// Plays the bag to its end and gives the report.
+  nlohmann::json play() {
+    Process player({"/usr/bin/python3", kPlayer, "__name:=player", "__ns:=" + manager_.space()});
+    const std::optional<int> status = player.wait(2 * kPatience);
+    EXPECT_TRUE(status.has_value()) << "the player did not end in time";
+    EXPECT_EQ(status.value_or(-1), 0) << "the player's log says why";
+    return readReport(folder_.path() / "report.json");
+  }
+
+ private:
+  bool load(const std::string& name, const std::string& type,
+            const std::map<std::string, std::string>& more = {}) {
+    std::map<std::string, std::string> remappings = {{"image", "/camera/rgb/image_color"},
+                                                     {"camera_info", "/camera/rgb/camera_info"},
+                                                     {"ground_truth/lines", "/ground_truth/lines"}};
+    remappings.insert(more.begin(), more.end());
+    return manager_.load(name, "evolin_ros/" + type, remappings);
+  }
+
+  std::filesystem::path bag_;
+  TemporaryFolder folder_;
+  Manager manager_;
+};
+
+TEST(OnlineBag, GivesTheReportOfAnEvaluationInProcess) {
+  const std::vector<SequenceFrame> frames = drawSequence();
+  const TemporaryFolder folder;
+  const std::filesystem::path bag = folder.path() / "drawn.bag";
+  writeBag(frames, bag);
+
+  BagRun run(bag, "opencv_lsd");
+  const nlohmann::json report = run.play();
+
+  const Expected expected = evaluateInProcess(frames);
+  // Figures that tell methods apart: neither nothing nor everything is right.
+  ASSERT_GT(expected.detection.front().counts.true_positives, 0U);
+  ASSERT_LT(expected.detection.front().counts.precision(), 1);
+  ASSERT_EQ(expected.pairs.size(), 11U);
+  expectWholeReport(report, expected);
+  EXPECT_EQ(report.at("coverage").at("input_images"), 12);
+  EXPECT_EQ(report.at("pass"), 1);
+  EXPECT_EQ(report.at("association").at("pairs_expected"), 11);
+  const nlohmann::json& parameters = report.at("provenance").at("parameters");
+  EXPECT_EQ(parameters.at("input").at("bag"), bag.string());
+  EXPECT_EQ(parameters.at("input").at("bytes"), std::filesystem::file_size(bag));
+  const std::string hash = sha256(bag);
+  ASSERT_EQ(hash.size(), 64U);
+  EXPECT_EQ(parameters.at("input").at("sha256"), hash);
+  EXPECT_EQ(report.at("timing").at("detector").at("frames"), 12);
+  EXPECT_EQ(report.at("timing").at("associator").at("frames"), 11);
+}
+
+/// Percent with one decimal, in tenths.
+int tenths(const nlohmann::json& ratio) {
+  return static_cast<int>(std::lround(1000 * ratio.get<double>()));
+}
+
+struct Figures {
+  int precision;
+  int recall;
+  int f_score;
+};
+
+const nlohmann::json& entryAt5(const nlohmann::json& report, const std::string& distance) {
+  for (const nlohmann::json& entry : report.at("detection").at("entries")) {
+    if (entry.at("distance") == distance && entry.at("threshold") == 5) {
+      return entry;
+    }
+  }
+  throw std::runtime_error("no entry of the " + distance + " distance at 5");
+}
+
+void expectFigures(const nlohmann::json& report, const std::string& distance,
+                   const Figures& figures) {
+  SCOPED_TRACE(distance);
+  const nlohmann::json& entry = entryAt5(report, distance);
+  EXPECT_EQ(tenths(entry.at("precision")), figures.precision);
+  EXPECT_EQ(tenths(entry.at("recall")), figures.recall);
+  EXPECT_EQ(tenths(entry.at("f_score")), figures.f_score);
+}
+
+std::string whyUnavailable(const std::string& detector) {
+  PluginLoader loader;
+  return loader.loadDetector(detector)->whyUnavailable();
+}
+
+/// Plays the ICL-NUIM sample and checks everything that holds for each detector.
+void playSample(const std::string& detector, nlohmann::json* report) {
+  SequenceOptions options;
+  options.pose_offset = -1;
+  options.same_rows = true;  // a row is the same physical line in all frames of the sample
+  const auto reader = openSequence(sharedFolder() / "data" / "icl_nuim_lr_sample", options);
+  std::vector<SequenceFrame> frames;
+  while (std::optional<SequenceFrame> frame = reader->next()) {
+    frames.push_back(std::move(*frame));
+  }
+  ASSERT_EQ(frames.size(), 10U);
+  const TemporaryFolder folder;
+  writeBag(frames, folder.path() / "icl.bag");
+
+  BagRun run(folder.path() / "icl.bag", detector);
+  *report = run.play();
+
+  Methods methods;
+  methods.detector = detector;
+  const Expected expected = evaluateInProcess(frames, methods);
+  expectWholeReport(*report, expected);
+  EXPECT_EQ(report->at("coverage").at("evaluated"), 10);
+  EXPECT_EQ(report->at("coverage").at("input_images"), 10);
+  const nlohmann::json& association = report->at("association");
+  EXPECT_EQ(association.at("pairs"), 9);
+  EXPECT_EQ(association.at("precision"), 1.0);
+  EXPECT_EQ(association.at("recall"), 1.0);
+}
+
+class RealSample : public ::testing::Test {
+ protected:
+  void play(const std::string& detector) { playSample(detector, &report_); }
+
+  nlohmann::json report_;
+};
+
+TEST_F(RealSample, HasThePublishedFiguresOfLsd) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  if (const std::string why = whyUnavailable("opencv_lsd"); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  ASSERT_NO_FATAL_FAILURE(play("opencv_lsd"));
+  expectFigures(report_, "structural", {157, 516, 240});
+  expectFigures(report_, "orthogonal", {225, 742, 346});
+}
+
+TEST_F(RealSample, HasThePublishedFiguresOfEdLines) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  if (const std::string why = whyUnavailable("opencv_edlines"); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  ASSERT_NO_FATAL_FAILURE(play("opencv_edlines"));
+  expectFigures(report_, "structural", {168, 621, 264});
+}
+
+TEST_F(RealSample, HasThePublishedFiguresOfFld) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  if (const std::string why = whyUnavailable("opencv_fld"); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  ASSERT_NO_FATAL_FAILURE(play("opencv_fld"));
+  expectFigures(report_, "structural", {145, 426, 216});
+}
+
+}  // namespace
+}  // namespace evolin::test

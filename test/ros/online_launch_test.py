@@ -1,0 +1,146 @@
+#!/usr/bin/python3
+"""evaluate.launch as a user calls it: a bag in, a report and an exit status out."""
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import rostest
+
+PACKAGE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+LIMIT = 90  # s that one launch may take on a busy machine
+
+
+def program(name):
+    """A program of the build under test, wherever a checkout may have others."""
+    folder = subprocess.run(['catkin_find', '--first-only', '--libexec', 'evolin_ros'], check=True,
+                            stdout=subprocess.PIPE, universal_newlines=True).stdout.strip()
+    return os.path.join(folder, name)
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(('', 0))
+        return probe.getsockname()[1]
+
+
+class OnlineLaunch(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix='evolin_test_')
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        cls.bag = os.path.join(cls.folder, 'drawn.bag')
+        subprocess.run([program('online_folder_tool'), cls.folder], check=True, timeout=LIMIT)
+        subprocess.run([program('evolin'), 'bag', '--input', os.path.join(cls.folder, 'sequence'),
+                        '--output', cls.bag], check=True, timeout=LIMIT)
+        with open(os.path.join(cls.folder, 'expected.json')) as file:
+            cls.expected = json.load(file)
+
+    def launch(self, **arguments):
+        """Exit status and output of evaluate.launch; the report goes to `out` in a new folder."""
+        self.work = tempfile.mkdtemp(dir=self.folder)
+        environment = dict(os.environ, PWD=self.work, ROS_HOME=os.path.join(self.work, 'home'))
+        for name in ('ROS_MASTER_URI', 'ROS_NAMESPACE', 'ROS_LOG_DIR'):
+            environment.pop(name, None)
+        arguments = {'bag': self.bag, 'output_dir': 'out', **arguments}
+        command = ['roslaunch', '-p', str(free_port()), 'evolin_ros', 'evaluate.launch']
+        command += ['%s:=%s' % item for item in arguments.items()]
+        process = subprocess.Popen(command, cwd=self.work, env=environment,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, universal_newlines=True)
+        try:
+            output = process.communicate(timeout=LIMIT)[0]
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGINT)  # roslaunch ends its nodes and itself
+            try:
+                output = process.communicate(timeout=30)[0]
+            except subprocess.TimeoutExpired:
+                process.kill()
+                output = process.communicate()[0]
+            self.fail('no end within %d s: %s\n%s' % (LIMIT, ' '.join(command), output))
+        print(output)
+        return process.returncode, output
+
+    def report(self):
+        def refuse(literal):
+            raise ValueError('%s is not strict JSON' % literal)
+
+        with open(os.path.join(self.work, 'out', 'report.json')) as file:
+            return json.load(file, parse_constant=refuse)
+
+    def check_detection(self, report, expected):
+        frames = expected['frames']
+        self.assertTrue(report['complete'])
+        self.assertEqual(report['pass'], 1)
+        self.assertEqual(report['coverage']['seen'], frames)
+        self.assertEqual(report['coverage']['evaluated'], frames)
+        self.assertEqual(report['coverage']['input_images'], frames)
+        entries = report['detection']['entries']
+        self.assertEqual(len(entries), len(expected['entries']))
+        for entry, wanted in zip(entries, expected['entries']):
+            self.assertEqual(entry['distance'], wanted['distance'])
+            self.assertEqual(entry['threshold'], wanted['threshold'])
+            self.assertEqual(entry['counts'], wanted['counts'])
+            self.assertAlmostEqual(entry['average_precision'], wanted['average_precision'],
+                                   delta=1e-12)
+
+    def test_a_bag_gives_the_figures_of_an_evaluation_in_process(self):
+        status, output = self.launch()
+        self.assertEqual(status, 0, output)
+        report = self.report()
+        self.check_detection(report, self.expected['whole'])
+        self.assertEqual(report['association']['pairs'], self.expected['whole']['pairs'])
+        self.assertEqual(report['association']['counts'], self.expected['whole']['association'])
+        detector = [value for key, value in report['provenance'].items()
+                    if key.endswith('/detector')]
+        self.assertEqual([entry['detector'] for entry in detector], ['opencv_lsd'])
+
+    def test_a_folder_replaces_the_ground_truth_of_the_bag(self):
+        self.assertNotEqual(self.expected['halved']['entries'], self.expected['whole']['entries'])
+        status, output = self.launch(ground_truth_dir=os.path.join(self.folder, 'halved'))
+        self.assertEqual(status, 0, output)
+        report = self.report()
+        self.check_detection(report, self.expected['halved'])
+        self.assertEqual(report['association']['pairs'], self.expected['halved']['pairs'])
+        self.assertEqual(report['association']['counts'], self.expected['halved']['association'])
+
+    def test_a_part_of_the_bag_with_matches_of_detected_lines(self):
+        status, output = self.launch(associate='detected', start=0.09, duration=0.19)
+        self.assertEqual(status, 0, output)
+        report = self.report()
+        self.check_detection(report, self.expected['frames_3_to_8'])
+        self.assertEqual(report['association']['reason'], 'not evaluated: detected lines')
+        self.assertIsNone(report['association']['f_score'])
+        self.assertEqual(report['association']['not_evaluated']['detected_lines'], 5)
+
+    def check_failure(self, cause, **arguments):
+        """roslaunch of ROS Noetic ends with 0 when a required node dies: the log must tell."""
+        _, output = self.launch(**arguments)
+        self.assertIn(cause, output)
+        self.assertRegex(output, 'REQUIRED process .* has died')
+        self.assertFalse(os.path.exists(os.path.join(self.work, 'out', 'report.json')))
+
+    def test_a_bag_that_is_not_there_ends_the_launch(self):
+        self.check_failure('~bag: no such file: /nowhere/drawn.bag', bag='/nowhere/drawn.bag')
+
+    def test_an_unknown_detector_ends_the_launch(self):
+        self.check_failure("unknown detector 'opencv_lsdd'; did you mean 'opencv_lsd'",
+                           detector='opencv_lsdd')
+
+    def test_every_argument_has_a_doc(self):
+        folder = os.path.join(PACKAGE, 'launch')
+        files = [name for name in sorted(os.listdir(folder)) if name.endswith('.launch')]
+        self.assertIn('evaluate.launch', files)
+        for name in files:
+            for argument in ElementTree.parse(os.path.join(folder, name)).getroot().findall('arg'):
+                self.assertTrue(argument.get('doc'), '%s: arg %s' % (name, argument.get('name')))
+
+
+if __name__ == '__main__':
+    rostest.rosrun('evolin_ros', 'online_launch', OnlineLaunch, sys.argv)

@@ -1,0 +1,155 @@
+// fork and exec, and the services of a nodelet manager.
+#include "online_process.h"
+
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/param.h>
+#include <ros/this_node.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <xmlrpcpp/XmlRpc.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+#include "online_support.h"
+
+namespace evolin::test {
+
+namespace {
+
+std::vector<std::string> managerCommand(const std::string& space) {
+  ros::param::set(space + "/manager/num_worker_threads", 4);
+  return {"rosrun", "nodelet", "nodelet", "manager", "__name:=manager", "__ns:=" + space};
+}
+
+/// Whether `node` sends to somebody on `topic`, as the node itself says.
+bool isConnected(const std::string& node, const std::string& topic) {
+  XmlRpc::XmlRpcValue request;
+  request[0] = ros::this_node::getName();
+  request[1] = node;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue uri;
+  if (!ros::master::execute("lookupNode", request, response, uri, false)) {
+    return false;
+  }
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(static_cast<std::string>(uri), host, port)) {
+    return false;
+  }
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
+  XmlRpc::XmlRpcValue caller;
+  caller[0] = ros::this_node::getName();
+  if (!client.execute("getBusInfo", caller, response) || response.size() < 3) {
+    return false;
+  }
+  for (int i = 0; i < response[2].size(); ++i) {
+    XmlRpc::XmlRpcValue& link = response[2][i];
+    if (static_cast<std::string>(link[2]) == "o" && static_cast<std::string>(link[4]) == topic) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Process::Process(const std::vector<std::string>& command) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) {
+    arguments.push_back(const_cast<char*>(word.c_str()));
+  }
+  arguments.push_back(nullptr);
+  const pid_t parent = getpid();
+  pid_ = fork();
+  if (pid_ < 0) {
+    throw std::runtime_error("cannot start " + command.front());
+  }
+  if (pid_ == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() == parent) {
+      execvp(arguments.front(), arguments.data());
+    }
+    _exit(127);
+  }
+}
+
+Process::~Process() {
+  constexpr double kGrace = 10;
+  if (!running()) {
+    return;
+  }
+  send(SIGINT);
+  if (!wait(kGrace)) {
+    send(SIGKILL);
+    wait(kGrace);
+  }
+}
+
+void Process::send(int signal) const {
+  if (!status_) {
+    kill(pid_, signal);
+  }
+}
+
+std::optional<int> Process::wait(double seconds) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!status_) {
+    int status = 0;
+    const pid_t ended = waitpid(pid_, &status, WNOHANG);
+    if (ended == pid_) {
+      status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    } else if (std::chrono::steady_clock::now() >= deadline) {
+      break;
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  return status_;
+}
+
+Manager::Manager(const std::string& space) : space_(space), process_(managerCommand(space)) {
+  const std::string name = space + "/manager";
+  const auto ready = [&] {
+    return ros::service::exists(name + "/load_nodelet", false) && isConnected(name, "/rosout");
+  };
+  const ::testing::AssertionResult result = waitFor("nodelet manager " + name, ready);
+  if (!result) {
+    throw std::runtime_error(result.message());
+  }
+}
+
+bool Manager::load(const std::string& name, const std::string& type,
+                   const std::map<std::string, std::string>& remappings) {
+  nodelet::NodeletLoadRequest request;
+  request.name = space_ + "/" + name;
+  request.type = type;
+  for (const auto& [from, to] : remappings) {
+    request.remap_source_args.push_back(space_ + "/" + from);
+    request.remap_target_args.push_back(to.front() == '/' ? to : space_ + "/" + to);
+  }
+  const auto answer = tryService<nodelet::NodeletLoad>(space_ + "/manager/load_nodelet", request);
+  return answer && answer->success != 0;
+}
+
+bool Manager::unload(const std::string& name) {
+  nodelet::NodeletUnloadRequest request;
+  request.name = space_ + "/" + name;
+  const auto answer =
+      tryService<nodelet::NodeletUnload>(space_ + "/manager/unload_nodelet", request);
+  return answer && answer->success != 0;
+}
+
+::testing::AssertionResult Manager::waitForListener(const std::string& topic) const {
+  return waitFor("a listener to " + space_ + "/" + topic,
+                 [&] { return isConnected(space_ + "/manager", space_ + "/" + topic); });
+}
+
+}  // namespace evolin::test

@@ -1,0 +1,61 @@
+// Child processes of a test, a nodelet manager among them, which never outlive it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/types.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace evolin::test {
+
+/// Ends with the test: asked by SIGINT at destruction, made to after a while, and killed by the
+/// system when the test itself dies.
+class Process {
+ public:
+  /// `command` is looked up in PATH. Throws std::runtime_error when it cannot be started.
+  explicit Process(const std::vector<std::string>& command);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const;
+
+  /// The exit status, or minus the signal that ended it; none when it still runs after `seconds`.
+  std::optional<int> wait(double seconds);
+
+  bool running() { return !wait(0); }
+
+ private:
+  pid_t pid_ = -1;
+  std::optional<int> status_;
+};
+
+/// A nodelet manager in a process of its own with four threads, as manager.launch has it.
+class Manager {
+ public:
+  /// Its name is `space`/manager. Returns when it takes nodelets and its log reaches /rosout;
+  /// throws std::runtime_error otherwise.
+  explicit Manager(const std::string& space);
+
+  /// Whether nodelet `space`/`name` of `type` started; `remappings` count from the namespace. Set
+  /// its parameters before. Throws std::runtime_error when the manager does not answer.
+  bool load(const std::string& name, const std::string& type,
+            const std::map<std::string, std::string>& remappings = {});
+  bool unload(const std::string& name);
+
+  /// Waits until what the nodelets publish on `space`/`topic` reaches somebody, in the same manager
+  /// or outside.
+  ::testing::AssertionResult waitForListener(const std::string& topic) const;
+
+  const std::string& space() const { return space_; }
+  Process& process() { return process_; }
+
+ private:
+  std::string space_;
+  Process process_;
+};
+
+}  // namespace evolin::test
