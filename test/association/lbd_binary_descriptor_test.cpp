@@ -51,7 +51,7 @@ bool bitOf(const BinaryDescriptors& descriptors, int line, int byte, int element
 
 double hamming(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_HAMMING); }
 
-// GTest's own skip has to be called from the test, hence a fixture.
+// Skipped as a whole where the installed OpenCV lacks the method.
 class LbdBinaryDescriptor : public ::testing::Test {
  protected:
   void SetUp() override {
