@@ -52,7 +52,7 @@ struct SynthOptions {
 po::options_description describe(SynthOptions* options) {
   synthetic::SyntheticOptions& sequence = options->sequence;
   po::options_description description("Options");
-  const auto add = description.add_options();
+  auto add = description.add_options();
   add("output,o", po::value(&options->output)->value_name("DIR|FILE.bag")->required(),
       "folder or bag to write");
   add("frames", po::value(&sequence.frames)->value_name("N")->default_value(sequence.frames),

@@ -68,8 +68,14 @@ std::map<std::int64_t, std::size_t> rowsOf(const std::optional<LineSegments>& li
   return rows;
 }
 
-std::string pairText(std::size_t first, std::size_t second) {
-  return std::to_string(first) + "," + std::to_string(second) + "\n";
+/// By rising row of the first frame.
+std::string pairText(IndexPairs pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  std::string text;
+  for (const auto& [first, second] : pairs) {
+    text += std::to_string(first) + "," + std::to_string(second) + "\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -192,24 +198,26 @@ void EvolinWriter::writeAssociations() const {
   };
   std::unordered_map<std::int64_t, Place> last_seen;
   for (const auto& [number, entry] : entries_) {
-    std::string neighbours;
-    std::map<std::size_t, std::string> gaps;  // by the earlier frame
+    IndexPairs neighbours;
+    std::map<std::size_t, IndexPairs> gaps;  // by the earlier frame
     for (const auto& [id, row] : rowsOf(entry.lines)) {
       const auto seen = last_seen.find(id);
       if (seen != last_seen.end()) {
         const Place& before = seen->second;
-        (before.frame + 1 == number ? neighbours : gaps[before.frame]) += pairText(before.row, row);
+        (before.frame + 1 == number ? neighbours : gaps[before.frame])
+            .emplace_back(before.row, row);
       }
       last_seen[id] = {number, row};
     }
     if (number > 0 && entry.lines && entries_.at(number - 1).lines) {
       writeFileAtomically(
           folder_ / "gt_associations_step1" / (stem(number - 1) + "_" + stem(number) + ".csv"),
-          neighbours);
+          pairText(neighbours));
     }
     for (const auto& [earlier, pairs] : gaps) {
       writeFileAtomically(
-          folder_ / "gt_associations_gaps" / (stem(earlier) + "_" + stem(number) + ".csv"), pairs);
+          folder_ / "gt_associations_gaps" / (stem(earlier) + "_" + stem(number) + ".csv"),
+          pairText(pairs));
     }
   }
 }

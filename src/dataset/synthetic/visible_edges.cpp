@@ -2,10 +2,11 @@
 #include "evolin_ros/dataset/synthetic/visible_edges.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "evolin_ros/dataset/synthetic/renderer.h"
-#include "evolin_ros/geometry/clipping.h"
 #include "projected_surface.h"
 
 namespace evolin::synthetic {
@@ -47,12 +48,11 @@ std::optional<EdgePart> partInView(const Segment& edge, const Camera& camera) {
   const auto inside = [&](const Vector3& condition) {
     return keepPositive(condition.dot(edge.from), condition.dot(edge.to), &part);
   };
-  const double right = camera.width - 1;
-  const double bottom = camera.height - 1;
+  const Rectangle area = annotatedArea(camera);
   if (keepPositive(edge.from.z() - Renderer::kNearPlane, edge.to.z() - Renderer::kNearPlane,
                    &part) &&
-      inside({camera.fx, 0, camera.cx}) && inside({-camera.fx, 0, right - camera.cx}) &&
-      inside({0, camera.fy, camera.cy}) && inside({0, -camera.fy, bottom - camera.cy})) {
+      inside({camera.fx, 0, camera.cx}) && inside({-camera.fx, 0, area.right - camera.cx}) &&
+      inside({0, camera.fy, camera.cy}) && inside({0, -camera.fy, area.bottom - camera.cy})) {
     return part;
   }
   return std::nullopt;
@@ -117,18 +117,48 @@ LineSegment project(const Edge& edge, const EdgePart& part, const View& view) {
   const Vector3 span = edge.to - edge.from;
   const Eigen::Vector2d a = view.toPixel(view.toCamera(edge.from + part.begin * span));
   const Eigen::Vector2d b = view.toPixel(view.toCamera(edge.from + part.end * span));
-  const double right = view.camera.width - 1;
-  const double bottom = view.camera.height - 1;
   LineSegment line;
-  // Rounding must not carry an end out of the image.
-  line.x1 = std::clamp(a.x(), 0.0, right);
-  line.y1 = std::clamp(a.y(), 0.0, bottom);
-  line.x2 = std::clamp(b.x(), 0.0, right);
-  line.y2 = std::clamp(b.y(), 0.0, bottom);
-  return line;
+  line.x1 = a.x();
+  line.y1 = a.y();
+  line.x2 = b.x();
+  line.y2 = b.y();
+  const Rectangle area = annotatedArea(view.camera);
+  return clampToRectangle(line, area);  // rounding must not carry an end out of it
+}
+
+double distanceToSegment(double x, double y, const LineSegment& line) {
+  const double dx = line.x2 - line.x1;
+  const double dy = line.y2 - line.y1;
+  const double share =
+      std::clamp(((x - line.x1) * dx + (y - line.y1) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+  return std::hypot(x - line.x1 - share * dx, y - line.y1 - share * dy);
+}
+
+/// Takes away lines with both ends near a longer line and returns how many.
+std::size_t removeTwins(LineSegments* lines) {
+  const auto isTwin = [lines](const LineSegment& line) {
+    return std::any_of(lines->begin(), lines->end(), [&line](const LineSegment& other) {
+      const bool longer =
+          other.length() > line.length() || (other.length() == line.length() && other.id < line.id);
+      return longer && distanceToSegment(line.x1, line.y1, other) < kTwinDistance &&
+             distanceToSegment(line.x2, line.y2, other) < kTwinDistance;
+    });
+  };
+  LineSegments kept;
+  std::copy_if(lines->begin(), lines->end(), std::back_inserter(kept),
+               [&isTwin](const LineSegment& line) { return !isTwin(line); });
+  const std::size_t removed = lines->size() - kept.size();
+  *lines = std::move(kept);
+  return removed;
 }
 
 }  // namespace
+
+Rectangle annotatedArea(const Camera& camera) {
+  constexpr double kShare = 127.0 / 128;
+  return {0, 0, std::min(camera.width - 1.0, camera.width * kShare),
+          std::min(camera.height - 1.0, camera.height * kShare)};
+}
 
 std::vector<std::vector<EdgePart>> visibleParts(const Scene& scene, const Camera& camera,
                                                 const Pose& camera_to_world) {
@@ -154,7 +184,6 @@ std::vector<std::vector<EdgePart>> visibleParts(const Scene& scene, const Camera
 
 VisibleLines visibleLines(const Scene& scene, const Camera& camera, const Pose& camera_to_world) {
   const View view(camera, camera_to_world);
-  const Rectangle counted{0, 0, camera.width * 127.0 / 128, camera.height * 127.0 / 128};
   const std::vector<std::vector<EdgePart>> parts = visibleParts(scene, camera, camera_to_world);
   VisibleLines result;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -163,8 +192,7 @@ VisibleLines visibleLines(const Scene& scene, const Camera& camera, const Pose& 
     std::size_t long_enough = 0;
     for (const EdgePart& part : parts[i]) {
       const LineSegment line = project(scene.edges[i], part, view);
-      const std::optional<LineSegment> counting = clipToRectangle(line, counted);
-      if (!counting || counting->length() < kMinLength) {
+      if (line.length() < kMinLength) {
         continue;
       }
       ++long_enough;
@@ -179,6 +207,7 @@ VisibleLines visibleLines(const Scene& scene, const Camera& camera, const Pose& 
       result.parts_left_out += long_enough - 1;
     }
   }
+  result.twins_left_out = removeTwins(&result.lines);
   return result;
 }
 

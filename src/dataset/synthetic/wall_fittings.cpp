@@ -77,9 +77,11 @@ void addDoor(const Placement& place, const Palette& palette, RandomStream* rando
   paint.base *= 0.92;
   scene->addBox(place, {kCasing, -0.024, 0.006}, {leaf, 0.024, kHeight - kCasing - 0.012}, paint,
                 kBack);
+  Material panel = paint;
+  panel.base *= 0.86;
   for (const auto& [bottom, top] : {std::pair(0.16, 0.84), std::pair(1.08, 1.88)}) {
     scene->addBox(place, {kCasing + 0.13, -0.042, bottom}, {leaf - 0.26, 0.018, top - bottom},
-                  paint, kBack);
+                  panel, kBack);
   }
   scene->addBox(place, {kCasing + 0.04, -0.034, 0.93}, {0.045, 0.01, 0.045}, palette.metal, kBack);
   scene->addBox(place, {kCasing + 0.05, -0.078, 0.942}, {0.022, 0.044, 0.022}, palette.metal,
