@@ -1,9 +1,11 @@
-// Time of describing the lines of a frame with LBD and of matching two frames.
+// Time of describing the lines of a frame with LBD, float and binary, and of matching two frames.
 #include <benchmark/benchmark.h>
 
 #include "benchmark/frames.h"
 #include "evolin_ros/association/descriptor_matching.h"
 #include "evolin_ros/association/lbd_associator.h"
+#include "evolin_ros/association/lbd_binary_associator.h"
+#include "evolin_ros/association/lbd_binary_descriptor.h"
 #include "evolin_ros/association/lbd_descriptor.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -32,6 +34,19 @@ void describe(benchmark::State& state) {
   state.counters["lines"] = static_cast<double>(lines.size());
 }
 
+void describeBinary(benchmark::State& state) {
+  if (!whyNoLbdBinary().empty()) {
+    state.SkipWithError(whyNoLbdBinary().c_str());
+    return;
+  }
+  const Frame frame = benchmark_frames::load().front();
+  const LineSegments lines = detectLines(frame);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(describeLbdBinary(frame.image, lines));
+  }
+  state.counters["lines"] = static_cast<double>(lines.size());
+}
+
 void match(benchmark::State& state) {
   const std::vector<Frame> frames = benchmark_frames::load();
   const cv::Mat first = describeLbd(frames[0].image, detectLines(frames[0]));
@@ -42,9 +57,28 @@ void match(benchmark::State& state) {
   state.counters["lines"] = static_cast<double>(first.rows);
 }
 
+void matchBinary(benchmark::State& state) {
+  if (!whyNoLbdBinary().empty()) {
+    state.SkipWithError(whyNoLbdBinary().c_str());
+    return;
+  }
+  const std::vector<Frame> frames = benchmark_frames::load();
+  const BinaryDescriptors first = describeLbdBinary(frames[0].image, detectLines(frames[0]));
+  const BinaryDescriptors second = describeLbdBinary(frames[1].image, detectLines(frames[1]));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(matchBinaryDescriptors(first, second, true, 256));
+  }
+  state.counters["lines"] = static_cast<double>(first.bits.rows);
+}
+
 // A frame of a stream: its own lines are described, those of the frame before are known.
+template <typename Associator>
 void describeAndMatch(benchmark::State& state) {
-  LbdAssociator associator;
+  Associator associator;
+  if (!associator.whyUnavailable().empty()) {
+    state.SkipWithError(associator.whyUnavailable().c_str());
+    return;
+  }
   associator.configure(YAML::Node());
   const std::vector<Frame> frames = benchmark_frames::load();
   FrameLines first;
@@ -63,8 +97,11 @@ void describeAndMatch(benchmark::State& state) {
 }
 
 BENCHMARK(describe)->Unit(benchmark::kMillisecond);
+BENCHMARK(describeBinary)->Unit(benchmark::kMillisecond);
 BENCHMARK(match)->Unit(benchmark::kMillisecond);
-BENCHMARK(describeAndMatch)->Unit(benchmark::kMillisecond);
+BENCHMARK(matchBinary)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(describeAndMatch, LbdAssociator)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(describeAndMatch, LbdBinaryAssociator)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace evolin

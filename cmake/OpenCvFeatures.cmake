@@ -1,7 +1,9 @@
-# Finds out what the installed OpenCV offers to the detectors. Include it after find_package(OpenCV).
-# Sets EVOLIN_OPENCV_LIBRARIES (what a target that detects lines links) and writes
-# generated/evolin_opencv_features.h, which only src/detection includes. Nothing here fails when a
-# method is absent: the detector says so at run time.
+# Finds out what the installed OpenCV offers to the detectors and associators. Include it after
+# find_package(OpenCV). Sets EVOLIN_OPENCV_LIBRARIES (what a target that detects lines links) and
+# EVOLIN_OPENCV_LINE_DESCRIPTOR (what one that describes them links besides; empty where the module
+# is absent), and writes generated/evolin_opencv_features.h, which only src/detection and
+# src/association include. Nothing here fails when a method is absent: the plug-in says so at run
+# time.
 
 include(CMakePushCheckState)
 include(CheckCXXSourceCompiles)
@@ -18,6 +20,7 @@ string(MAKE_C_IDENTIFIER "${OpenCV_VERSION}" _evolin_opencv)
 set(_evolin_fld EVOLIN_OPENCV_${_evolin_opencv}_FAST_LINE_DETECTOR)
 set(_evolin_edges EVOLIN_OPENCV_${_evolin_opencv}_EDGE_DRAWING)
 set(_evolin_lsd EVOLIN_OPENCV_${_evolin_opencv}_LSD)
+set(_evolin_line_descriptor EVOLIN_OPENCV_${_evolin_opencv}_LINE_DESCRIPTOR)
 
 cmake_push_check_state(RESET)
 set(CMAKE_REQUIRED_INCLUDES ${OpenCV_INCLUDE_DIRS})
@@ -74,9 +77,29 @@ else()
       }
     }" ${_evolin_lsd})
 endif()
+
+if(TARGET opencv_line_descriptor)
+  set(CMAKE_REQUIRED_LIBRARIES opencv_core opencv_line_descriptor)
+  check_cxx_source_compiles("
+    #include <opencv2/core.hpp>
+    #include <opencv2/line_descriptor.hpp>
+    #include <vector>
+    int main() {
+      std::vector<cv::line_descriptor::KeyLine> lines(1);
+      lines[0].numOfPixels = 1;
+      cv::Mat descriptors;
+      cv::line_descriptor::BinaryDescriptor().compute(cv::Mat(), lines, descriptors, false);
+      return 0;
+    }" ${_evolin_line_descriptor})
+endif()
 cmake_pop_check_state()
 
-foreach(_evolin_feature LSD FAST_LINE_DETECTOR EDGE_DRAWING)
+set(EVOLIN_OPENCV_LINE_DESCRIPTOR)
+if(${_evolin_line_descriptor})
+  set(EVOLIN_OPENCV_LINE_DESCRIPTOR opencv_line_descriptor)
+endif()
+
+foreach(_evolin_feature LSD FAST_LINE_DETECTOR EDGE_DRAWING LINE_DESCRIPTOR)
   if(EVOLIN_OPENCV_${_evolin_opencv}_${_evolin_feature})
     set(EVOLIN_HAS_${_evolin_feature} 1)
   else()
@@ -86,4 +109,5 @@ endforeach()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/evolin_opencv_features.h.in
   ${CMAKE_CURRENT_BINARY_DIR}/generated/evolin_opencv_features.h @ONLY)
 message(STATUS "OpenCV ${OpenCV_VERSION}: LSD ${EVOLIN_HAS_LSD}, FastLineDetector "
-  "${EVOLIN_HAS_FAST_LINE_DETECTOR}, EdgeDrawing ${EVOLIN_HAS_EDGE_DRAWING}")
+  "${EVOLIN_HAS_FAST_LINE_DETECTOR}, EdgeDrawing ${EVOLIN_HAS_EDGE_DRAWING}, "
+  "BinaryDescriptor ${EVOLIN_HAS_LINE_DESCRIPTOR}")

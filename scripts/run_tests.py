@@ -28,6 +28,7 @@ class Program:
         self.command = entry["command"]
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
         self.folder = properties.get("WORKING_DIRECTORY")
+        self.skip_status = properties.get("SKIP_RETURN_CODE")
         # catkin's names: _ctest_PACKAGE_KIND_NAME.
         match = re.match(r"_ctest_.+?_(gtest|gmock|nosetests|rostest|roslaunch-check)_(.*)", entry["name"])
         self.kind = match.group(1) if match else "program"
@@ -188,6 +189,8 @@ class Runner:
 
     def cases(self, program, status, log):
         if program.results is None:
+            if program.skip_status is not None and status == program.skip_status:
+                return [Case(program.name, "skipped", tail(log) or "no reason given")]
             state = "passed" if status == 0 else "failed"
             return [Case(program.name, state, describe_status(status) + "\n" + tail(log))]
         cases = read_cases(program.results)

@@ -2,5 +2,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "evolin_ros/association/lbd_associator.h"
+#include "evolin_ros/association/lbd_binary_associator.h"
 
 PLUGINLIB_EXPORT_CLASS(evolin::LbdAssociator, evolin::LineAssociator)
+PLUGINLIB_EXPORT_CLASS(evolin::LbdBinaryAssociator, evolin::LineAssociator)

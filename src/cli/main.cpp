@@ -3,12 +3,14 @@
 #include "command.h"
 #include "evaluate_command.h"
 #include "list_command.h"
+#include "synth_command.h"
 
 int main(int argc, char** argv) {
   const std::vector<evolin::cli::Command> commands = {
       evolin::cli::bagCommand(),
       evolin::cli::evaluateCommand(),
       evolin::cli::listCommand(),
+      evolin::cli::synthCommand(),
   };
   return evolin::cli::runProgram(commands, {argv + 1, argv + argc});
 }

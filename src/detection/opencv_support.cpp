@@ -21,17 +21,6 @@ LineSegments convert(const std::vector<Row>& rows) {
 
 }  // namespace
 
-std::string missingInOpenCv(const std::string& what, const std::string& since) {
-  return std::string("OpenCV " CV_VERSION ", which this was built with, lacks ") + what +
-         ": it exists since OpenCV " + since;
-}
-
-void requireAvailable(const std::string& owner, const std::string& why) {
-  if (!why.empty()) {
-    throw UnavailableError(owner + ": " + why);
-  }
-}
-
 void requireOddAperture(const std::string& owner, int canny_aperture) {
   if (canny_aperture != 3 && canny_aperture != 5 && canny_aperture != 7) {
     throw ConfigError(owner, "canny_aperture",

@@ -5,17 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "evolin_ros/base/availability.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/dataset/frame.h"
 #include "evolin_ros/geometry/line_segment.h"
 
 namespace evolin {
-
-/// "OpenCV 4.2.0, which this was built with, lacks WHAT: it exists since OpenCV SINCE".
-std::string missingInOpenCv(const std::string& what, const std::string& since);
-
-/// Throws UnavailableError saying `owner` and `why` unless `why` is empty.
-void requireAvailable(const std::string& owner, const std::string& why);
 
 /// Throws ConfigError for a Canny aperture other than 3, 5 and 7.
 void requireOddAperture(const std::string& owner, int canny_aperture);

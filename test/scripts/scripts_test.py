@@ -4,6 +4,8 @@
 import importlib.machinery
 import importlib.util
 import os
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -69,6 +71,62 @@ class ReadCases(unittest.TestCase):
     def test_the_stand_in_for_a_crashed_program_is_no_results(self):
         self.assertIsNone(self.read('<testsuite><testcase name="test_ran" classname="Results">'
                                     '<failure message="did not run"/></testcase></testsuite>'))
+
+
+class PlainPrograms(unittest.TestCase):
+    """Programs without JUnit files, which only their exit status speaks for."""
+
+    def state(self, status, skip_status):
+        entry = {"name": "plain", "command": ["sh", "-c", "echo why; exit %d" % status],
+                 "properties": [{"name": "SKIP_RETURN_CODE", "value": skip_status}] if skip_status else []}
+        with tempfile.TemporaryDirectory() as logs:
+            outcome = run_tests.Runner(logs, 60).run(run_tests.Program(entry))
+        self.assertEqual(len(outcome.cases), 1)
+        return outcome.cases[0].state, outcome.cases[0].message
+
+    def test_the_declared_status_is_a_skip_with_the_output_as_its_reason(self):
+        self.assertEqual(self.state(77, 77), ("skipped", "why"))
+
+    def test_that_status_undeclared_is_a_failure(self):
+        self.assertEqual(self.state(77, None)[0], "failed")
+
+    def test_another_status_is_no_skip(self):
+        self.assertEqual(self.state(1, 77)[0], "failed")
+        self.assertEqual(self.state(0, 77)[0], "passed")
+
+
+class Releases(unittest.TestCase):
+    """What scripts/test --release refuses, before it touches anything."""
+
+    def refused(self, *arguments, scripts=SCRIPTS, become=None):
+        process = subprocess.run([os.path.join(scripts, "test"), "--release", *arguments], preexec_fn=become,
+                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                 universal_newlines=True, cwd="/")
+        return process.returncode, process.stdout
+
+    def test_an_unknown_release_is_answered_with_the_known_ones(self):
+        status, text = self.refused("woody")
+        self.assertEqual(status, 2)
+        self.assertIn("--release 'woody': expected bullseye, bookworm or trixie", text)
+
+    def test_no_release_is_answered_with_the_known_ones(self):
+        status, text = self.refused()
+        self.assertEqual(status, 2)
+        self.assertIn("bullseye, bookworm or trixie", text)
+
+    def test_without_root_it_says_so(self):
+        with tempfile.TemporaryDirectory() as folder:
+            # Where every user may read, unlike the checkout perhaps.
+            os.chmod(folder, 0o755)
+            scripts = os.path.join(folder, "scripts")
+            os.mkdir(scripts, 0o755)
+            for name in ("test", "test_release"):
+                shutil.copy(os.path.join(SCRIPTS, name), scripts)
+                os.chmod(os.path.join(scripts, name), 0o755)
+            become_nobody = (lambda: os.setuid(65534)) if os.geteuid() == 0 else None
+            status, text = self.refused("bookworm", scripts=scripts, become=become_nobody)
+        self.assertEqual(status, 1)
+        self.assertIn("needs root", text)
 
 
 class Render(unittest.TestCase):
