@@ -18,6 +18,11 @@ bool isMeasured(double processing_time) {
   return std::isfinite(processing_time) && processing_time > 0;
 }
 
+bool hasIds(const LineSegments& lines) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const LineSegment& line) { return line.id >= 0; });
+}
+
 FrameState stateByWhatIsMissing(bool has_lines) {
   return has_lines ? FrameState::kNoGroundTruth : FrameState::kUnmatched;
 }
@@ -175,6 +180,11 @@ bool PassEvaluation::evaluatePair(const MatchSet& matches, EvaluationUpdate* upd
   if (first == entries_.end() || second == entries_.end() || !first->second.ground_truth ||
       !second->second.ground_truth) {
     return false;
+  }
+  if (!hasIds(first->second.ground_truth->lines) && !hasIds(second->second.ground_truth->lines) &&
+      !(first->second.ground_truth->lines.empty() && second->second.ground_truth->lines.empty())) {
+    ++pair_counts_.without_ids;
+    return true;
   }
   try {
     pair_records_.push_back(evaluator_.addPair(matches, first->second.ground_truth->lines,

@@ -92,11 +92,16 @@ std::string whyNoAssociation(const Report& report) {
     return {};
   }
   const PairCounts& pairs = report.pairs;
-  if (pairs.detected_lines + pairs.no_ground_truth + pairs.bad_ground_truth + pairs.skipped == 0) {
+  if (pairs.detected_lines + pairs.no_ground_truth + pairs.bad_ground_truth + pairs.without_ids +
+          pairs.skipped ==
+      0) {
     return "not evaluated: no matches were received";
   }
   if (report.pairs.detected_lines > 0) {
     return "not evaluated: detected lines";
+  }
+  if (report.pairs.without_ids > 0) {
+    return "not evaluated: the ground truth has no ids, its true matches are unknown";
   }
   if (report.pairs.skipped + report.pairs.bad_ground_truth > 0) {
     return "not evaluated: no usable pair, see the notes";

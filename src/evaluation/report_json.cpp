@@ -85,6 +85,7 @@ Json associationJson(const Report& report) {
   object["not_evaluated"] = {{"detected_lines", report.pairs.detected_lines},
                              {"no_ground_truth", report.pairs.no_ground_truth},
                              {"bad_ground_truth", report.pairs.bad_ground_truth},
+                             {"without_ids", report.pairs.without_ids},
                              {"skipped", report.pairs.skipped}};
   return object;
 }

@@ -17,6 +17,7 @@
 #include "report_keeper.h"
 #include "topic_watchdog.h"
 #include "topics.h"
+#include "wall_throttle.h"
 
 namespace evolin::ros_shell {
 
@@ -89,8 +90,9 @@ class EvaluatorNodelet : public nodelet::Nodelet {
                                [this](const ros::WallTimerEvent&) { saveQuietly(false); });
     idle_timer_ = handle.createWallTimer(ros::WallDuration(0.1),
                                          [this](const ros::WallTimerEvent&) { saveWhenIdle(); });
-    publish_timer_ = handle.createWallTimer(ros::WallDuration(kPublishPeriod),
-                                            [this](const ros::WallTimerEvent&) { publishSums(); });
+    publish_timer_ =
+        handle.createWallTimer(ros::WallDuration(kPublishPeriod),
+                               [this](const ros::WallTimerEvent&) { publishSums(false); });
     save_ = handle.advertiseService(services::kSaveReport, &EvaluatorNodelet::onSave, this);
     reset_ = handle.advertiseService(services::kReset, &EvaluatorNodelet::onReset, this);
     // Last: whoever sees ~finish may start to send.
@@ -112,8 +114,10 @@ class EvaluatorNodelet : public nodelet::Nodelet {
   }
 
   void onMatches(const evolin_ros::LineMatchArrayConstPtr& message) {
-    take(topics::kMatches, message->header,
-         [&] { return evaluator_->addMatches(fromMessage(*message)); });
+    take(topics::kMatches, message->header, [&] {
+      matches_heard_ = true;
+      return evaluator_->addMatches(fromMessage(*message));
+    });
   }
 
   void onCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
@@ -144,7 +148,9 @@ class EvaluatorNodelet : public nodelet::Nodelet {
       publish(update, header);
     }
     for (const std::string& note : update.notes) {
-      NODELET_WARN_THROTTLE(5, "%s: %s", name.c_str(), note.c_str());
+      if (warnings_.due()) {
+        NODELET_WARN("%s: %s", name.c_str(), note.c_str());
+      }
     }
     if (released) {
       writeQuietly(std::move(*released));
@@ -176,9 +182,10 @@ class EvaluatorNodelet : public nodelet::Nodelet {
 
   /// Sums cost more than a frame's own figures (average precision sorts all predictions), so they
   /// go out at a period of their own.
-  void publishSums() {
+  void publishSums(bool now) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (inputs_ == published_inputs_) {
+    const ros::WallTime begin = ros::WallTime::now();
+    if (inputs_ == published_inputs_ || (!now && begin < next_sums_)) {
       return;
     }
     published_inputs_ = inputs_;
@@ -189,6 +196,9 @@ class EvaluatorNodelet : public nodelet::Nodelet {
     association_cumulative_.publish(toMessage(sums.association().classification(), last_header_,
                                               true, sums.association().pairs(), protocol));
     coverage_.publish(toMessage(evaluator_->coverage(), last_header_));
+    // On a long run the sums must not take the inputs' time.
+    constexpr double kShare = 20;
+    next_sums_ = ros::WallTime::now() + (ros::WallTime::now() - begin) * kShare;
   }
 
   /// What a report must carry to be understood later; asks the parameter server, so not under the
@@ -217,25 +227,33 @@ class EvaluatorNodelet : public nodelet::Nodelet {
 
   /// The parts of the pass before may still have changed it; both are written.
   std::filesystem::path save(bool complete) {
+    // Written in the order in which they are built: a snapshot must not land on a final report.
+    const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
     std::optional<Report> earlier;
     Report report;
+    std::size_t inputs = 0;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       earlier = evaluator_->previousReport();
       report = evaluator_->report(complete);
-      saved_inputs_ = inputs_;
+      inputs = inputs_;
     }
     if (earlier) {
       write(std::move(*earlier));
     }
-    return write(std::move(report));
+    std::filesystem::path file = write(std::move(report));
+    const std::lock_guard<std::mutex> lock(mutex_);
+    saved_inputs_ = inputs;
+    return file;
   }
 
   void writeQuietly(Report report) {
     try {
       write(std::move(report));
     } catch (const std::exception& error) {
-      NODELET_ERROR_THROTTLE(5, "%s", error.what());
+      if (errors_.due()) {
+        NODELET_ERROR("%s", error.what());
+      }
     }
   }
 
@@ -249,7 +267,9 @@ class EvaluatorNodelet : public nodelet::Nodelet {
     try {
       save(complete);
     } catch (const std::exception& error) {
-      NODELET_ERROR_THROTTLE(5, "%s", error.what());
+      if (errors_.due()) {
+        NODELET_ERROR("%s", error.what());
+      }
     }
   }
 
@@ -269,14 +289,16 @@ class EvaluatorNodelet : public nodelet::Nodelet {
   }
 
   bool onFinish(Trigger::Request& /*request*/, Trigger::Response& response) {
-    drain();
-    publishSums();
-    return answer(&response, [this] { return save(true); });
+    const bool complete = drain();
+    publishSums(true);
+    return answer(&response, [this, complete] { return save(complete); });
   }
 
   bool onReset(Trigger::Request& /*request*/, Trigger::Response& response) {
     const std::lock_guard<std::mutex> lock(mutex_);
     evaluator_->reset();
+    longest_gap_ = 0;
+    matches_heard_ = false;
     response.success = true;
     response.message = "all figures are forgotten; the next message begins pass 1";
     NODELET_INFO("%s", response.message.c_str());
@@ -297,35 +319,44 @@ class EvaluatorNodelet : public nodelet::Nodelet {
   }
 
   /// Returns once every frame that was heard of has its lines and matches, or nothing has come for
-  /// so long that nothing will.
-  void drain() {
+  /// so long that nothing will; false when the node is being stopped before that.
+  bool drain() {
     constexpr double kSettled = 0.3;
     // A slow method's next result may be a few of its longest pauses away.
     constexpr double kPauses = 4;
+    constexpr double kLongest = 30;
     while (ros::ok()) {
       {
         const std::lock_guard<std::mutex> lock(mutex_);
         const double idle = (ros::WallTime::now() - last_input_).toSec();
-        const double patience = std::max(options_.drain_timeout, kPauses * longest_gap_);
-        if (idle > (evaluator_->waiting() ? patience : kSettled)) {
-          return;
+        const double patience =
+            std::max(options_.drain_timeout, std::min(kPauses * longest_gap_, kLongest));
+        const bool first_match_due = !matches_heard_ && matches_.getNumPublishers() > 0;
+        if (idle > (evaluator_->waiting() || first_match_due ? patience : kSettled)) {
+          return true;
         }
       }
       ros::WallDuration(0.02).sleep();
     }
+    return false;
   }
 
   EvaluatorOptions options_;
-  std::mutex mutex_;  ///< guards what follows, up to the blank line
+  std::mutex save_mutex_;  ///< taken before mutex_
+  std::mutex mutex_;       ///< guards what follows, up to the blank line
   std::unique_ptr<StreamEvaluator> evaluator_;
   ros::WallTime last_input_;
   double longest_gap_ = 0;  ///< between two inputs, s of wall time
+  bool matches_heard_ = false;
   std::size_t inputs_ = 0;
   std::size_t saved_inputs_ = 0;
   std::size_t published_inputs_ = 0;
+  ros::WallTime next_sums_;
   std_msgs::Header last_header_;
 
   std::unique_ptr<ReportKeeper> keeper_;
+  WallThrottle warnings_;
+  WallThrottle errors_;
   std::unique_ptr<TopicWatchdog> watchdog_;
   ros::Publisher detection_frame_;
   ros::Publisher detection_cumulative_;

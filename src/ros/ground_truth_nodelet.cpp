@@ -14,6 +14,7 @@
 #include "node_parameters.h"
 #include "topic_watchdog.h"
 #include "topics.h"
+#include "wall_throttle.h"
 
 namespace evolin::ros_shell {
 
@@ -80,12 +81,13 @@ class GroundTruthNodelet : public nodelet::Nodelet {
     watchdog_->heard(getNodeHandle().resolveName(topics::kImage));
     std::optional<LineSegments> lines = folder_->at(fromRos(message->header.stamp));
     if (!lines) {
-      NODELET_WARN_THROTTLE(5,
-                            "no entry within 0.001 s of the image at %.6f (stamps from %s to %s): "
-                            "this frame has no lines of '%s'",
-                            message->header.stamp.toSec(),
-                            formatStamp(*folder_->firstStamp()).c_str(),
-                            formatStamp(*folder_->lastStamp()).c_str(), source_.c_str());
+      if (warnings_.due()) {
+        NODELET_WARN(
+            "no entry within 0.001 s of the image at %.6f (stamps from %s to %s): "
+            "this frame has no lines of '%s'",
+            message->header.stamp.toSec(), formatStamp(*folder_->firstStamp()).c_str(),
+            formatStamp(*folder_->lastStamp()).c_str(), source_.c_str());
+      }
       return;
     }
     LineSet set;
@@ -103,6 +105,7 @@ class GroundTruthNodelet : public nodelet::Nodelet {
   std::string source_ = "ground_truth";
   std::string transport_ = "raw";
   double warn_after_ = 3;
+  WallThrottle warnings_;
   std::unique_ptr<TopicWatchdog> watchdog_;
   std::unique_ptr<image_transport::ImageTransport> image_transport_;
   image_transport::Subscriber image_;

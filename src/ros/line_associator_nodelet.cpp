@@ -21,6 +21,7 @@
 #include "plugin_loader.h"
 #include "topic_watchdog.h"
 #include "topics.h"
+#include "wall_throttle.h"
 
 namespace evolin::ros_shell {
 
@@ -141,14 +142,18 @@ class LineAssociatorNodelet : public nodelet::Nodelet {
       window_.clear();
     }
     if (!result.problem.empty()) {
-      NODELET_WARN_THROTTLE(5, "%s", result.problem.c_str());
+      if (warnings_.due()) {
+        NODELET_WARN("%s", result.problem.c_str());
+      }
     }
     for (const FrameLinesJoiner::Pair& pair : result.complete) {
       try {
         associate(pair);
       } catch (const std::exception& error) {
-        NODELET_ERROR_THROTTLE(5, "no matches for the frame at %.6f: %s",
-                               pair.lines->header.stamp.toSec(), error.what());
+        if (errors_.due()) {
+          NODELET_ERROR("no matches for the frame at %.6f: %s", pair.lines->header.stamp.toSec(),
+                        error.what());
+        }
       }
     }
   }
@@ -199,6 +204,8 @@ class LineAssociatorNodelet : public nodelet::Nodelet {
   std::shared_ptr<LineAssociator> associator_;
   std::unique_ptr<CameraSource> camera_;
   std::unique_ptr<FrameLinesJoiner> joiner_;
+  WallThrottle warnings_;
+  WallThrottle errors_;
   std::unique_ptr<TopicWatchdog> watchdog_;
   std::deque<std::shared_ptr<FrameLines>> window_;  ///< the last frame_step + 1 frames
   std::string window_source_;

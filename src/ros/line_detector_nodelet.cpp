@@ -19,6 +19,7 @@
 #include "sequence_gaps.h"
 #include "topic_watchdog.h"
 #include "topics.h"
+#include "wall_throttle.h"
 
 namespace evolin::ros_shell {
 
@@ -113,17 +114,21 @@ class LineDetectorNodelet : public nodelet::Nodelet {
   void onImage(const sensor_msgs::ImageConstPtr& message) {
     watchdog_->heard(getNodeHandle().resolveName(topics::kImage));
     if (const std::uint32_t lost = gaps_.lostBefore(*message); lost > 0) {
-      NODELET_WARN_THROTTLE(5,
-                            "%u images were lost before %.6f: ~queue_size is %d, the detector is "
-                            "slower than the camera",
-                            lost, message->header.stamp.toSec(), options_.queue_size);
+      if (warnings_.due()) {
+        NODELET_WARN(
+            "%u images were lost before %.6f: ~queue_size is %d, the detector is "
+            "slower than the camera",
+            lost, message->header.stamp.toSec(), options_.queue_size);
+      }
     }
     try {
       detect(message);
     } catch (const std::exception& error) {
-      NODELET_ERROR_THROTTLE(5, "%s: no lines for the image at %.6f: %s",
-                             getNodeHandle().resolveName(topics::kImage).c_str(),
-                             message->header.stamp.toSec(), error.what());
+      if (errors_.due()) {
+        NODELET_ERROR("%s: no lines for the image at %.6f: %s",
+                      getNodeHandle().resolveName(topics::kImage).c_str(),
+                      message->header.stamp.toSec(), error.what());
+      }
     }
   }
 
@@ -153,6 +158,8 @@ class LineDetectorNodelet : public nodelet::Nodelet {
   PluginLoader loader_;
   std::shared_ptr<LineDetector> detector_;
   std::unique_ptr<CameraSource> camera_;
+  WallThrottle warnings_;
+  WallThrottle errors_;
   std::unique_ptr<TopicWatchdog> watchdog_;
   SequenceGaps gaps_;
   std::mutex connect_mutex_;

@@ -78,7 +78,8 @@ struct PairCounts {
   std::size_t detected_lines = 0;   ///< matches between detected lines: another family
   std::size_t no_ground_truth = 0;  ///< ground truth of one of the two frames is missing (so far)
   std::size_t bad_ground_truth = 0;
-  std::size_t skipped = 0;  ///< unusable; a note says why
+  std::size_t without_ids = 0;  ///< no line of the two frames has an id: true matches are unknown
+  std::size_t skipped = 0;      ///< unusable; a note says why
 };
 
 /// Wall time that a method took, frame by frame.
