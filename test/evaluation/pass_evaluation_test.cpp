@@ -222,6 +222,22 @@ TEST(PassEvaluation, MatchesBetweenDetectedLinesAreNotEvaluated) {
   }
 }
 
+TEST(PassEvaluation, GroundTruthWithoutIdsGivesAReasonAndNoZero) {
+  PassEvaluation pass;
+  for (const Stamp stamp : {1, 2}) {
+    LineSet truth = handTruth(stamp);
+    for (LineSegment& line : truth.lines) line.id = kNoId;
+    pass.addGroundTruth(truth);
+  }
+  pass.addMatches(matchSet(1, 2, "ground_truth", {{0, 0}}));
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.pairs.without_ids, 1U);
+  EXPECT_EQ(report.pairs.evaluated, 0U);
+  EXPECT_EQ(whyNoAssociation(report),
+            "not evaluated: the ground truth has no ids, its true matches are unknown");
+  EXPECT_NE(toJson(report).find("\"precision\": null"), std::string::npos);
+}
+
 TEST(PassEvaluation, UnusableMatchesAreSkippedWithANote) {
   PassEvaluation pass;
   for (const Stamp stamp : {1, 2, 3}) pass.addGroundTruth(handTruth(stamp));
