@@ -2,7 +2,6 @@
 #include "evolin_ros/geometry/projection.h"
 
 #include <cmath>
-#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -11,7 +10,8 @@
 
 namespace evolin {
 
-DepthMap::DepthMap(cv::Mat image, double factor) : image_(std::move(image)), factor_(factor) {
+DepthMap::DepthMap(cv::Mat image, double factor)
+    : image_(std::move(image)), in_units_(image_.type() == CV_16UC1), factor_(factor) {
   if (image_.empty()) {
     throw Error("depth image: it is empty; expected a depth for every pixel");
   }
@@ -26,43 +26,35 @@ DepthMap::DepthMap(cv::Mat image, double factor) : image_(std::move(image)), fac
   }
 }
 
-std::optional<double> DepthMap::at(int x, int y) const {
-  if (x < 0 || y < 0 || x >= image_.cols || y >= image_.rows) {
-    return std::nullopt;
+std::vector<double> DepthMap::at(const std::vector<cv::Point>& pixels) const {
+  std::vector<double> metres(pixels.size());
+  for (std::size_t index = 0; index < pixels.size(); ++index) {
+    metres[index] = at(pixels[index].x, pixels[index].y);
   }
-  const double metres = image_.type() == CV_16UC1 ? image_.at<std::uint16_t>(y, x) / factor_
-                                                  : static_cast<double>(image_.at<float>(y, x));
-  return metres > 0 && std::isfinite(metres) ? std::optional<double>(metres) : std::nullopt;
+  return metres;
 }
 
 Eigen::Vector3d backProject(const Camera& camera, double x, double y, double depth) {
   return {(x - camera.cx) * depth / camera.fx, (y - camera.cy) * depth / camera.fy, depth};
 }
 
-std::optional<Segment3d> backProject(const Camera& camera, const LineSegment& segment,
-                                     const DepthMap& depth, bool from_pixel_centers) {
-  const auto endpoint = [&](double x, double y) -> std::optional<Eigen::Vector3d> {
-    // Halves go to the even neighbour under the default rounding mode.
-    const double column = std::nearbyint(x);
-    const double row = std::nearbyint(y);
-    const ImageSize size = depth.size();
-    // Compared as floating-point numbers: the cast is undefined far outside. NaN fails too.
-    if (!(column >= 0 && row >= 0 && column < size.width && row < size.height)) {
-      return std::nullopt;
-    }
-    const std::optional<double> metres = depth.at(static_cast<int>(column), static_cast<int>(row));
-    if (!metres) {
-      return std::nullopt;
-    }
-    return from_pixel_centers ? backProject(camera, column, row, *metres)
-                              : backProject(camera, x, y, *metres);
+cv::Point nearestPixel(double x, double y, ImageSize size) {
+  // Halves go to the even neighbour under the default rounding mode.
+  const double column = std::nearbyint(x);
+  const double row = std::nearbyint(y);
+  // Compared as floating-point numbers: the cast is undefined far outside. NaN fails too.
+  return column >= 0 && row >= 0 && column < size.width && row < size.height
+             ? cv::Point(static_cast<int>(column), static_cast<int>(row))
+             : cv::Point(-1, -1);
+}
+
+Segment3d backProject(const Camera& camera, const LineSegment& segment, EndpointDepths depths,
+                      bool from_pixel_centers) {
+  const auto at = [from_pixel_centers](double value) {
+    return from_pixel_centers ? std::nearbyint(value) : value;
   };
-  const std::optional<Eigen::Vector3d> p1 = endpoint(segment.x1, segment.y1);
-  const std::optional<Eigen::Vector3d> p2 = endpoint(segment.x2, segment.y2);
-  if (!p1 || !p2) {
-    return std::nullopt;
-  }
-  return Segment3d{*p1, *p2};
+  return {backProject(camera, at(segment.x1), at(segment.y1), depths.first),
+          backProject(camera, at(segment.x2), at(segment.y2), depths.second)};
 }
 
 Eigen::Isometry3d motionBetween(const Pose& first, const Pose& second) {

@@ -17,6 +17,9 @@ namespace {
 /// No two lines of the scaled frame are farther apart.
 constexpr double kUnlimited = 4 * kScaledSide;
 
+/// Most have a line this near, and a search in a small neighbourhood is quick.
+constexpr double kUsual = kScaledSide / 8;
+
 void checkCount(const BestLocalizationOptions& options) {
   if (options.count == 0) {
     throw Error("localisation error of the 0 best: expected 1 or more");
@@ -33,8 +36,12 @@ void collectDistances(const SpatialFrame& from, const SpatialFrame& to, LineDist
   }
   NearestLineSearch search(lines);
   for (const LineProjection& projection : projectLines(from, to)) {
-    const NearestLine nearest = search.find(distance, scaled(projection.segment, to.size),
-                                            kUnlimited, to.protocol == Protocol::kEvolin);
+    const LineSegment query = scaled(projection.segment, to.size);
+    const bool gate = to.protocol == Protocol::kEvolin;
+    NearestLine nearest = search.find(distance, query, kUsual, gate);
+    if (!std::isfinite(nearest.distance)) {
+      nearest = search.find(distance, query, kUnlimited, gate);
+    }
     if (std::isfinite(nearest.distance)) {
       distances->push_back(nearest.distance);
     }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <utility>
 
 #include "evolin_ros/base/error.h"
@@ -65,9 +65,10 @@ ScaledLines scaleLines(const SpatialFrame& frame) {
 }
 
 /// Projections of `from`'s lines into `to`, scaled, with the scores of their lines.
-LineSegments scaleProjections(const SpatialFrame& from, const SpatialFrame& to) {
+LineSegments scaleProjections(const SpatialFrame& from, const SpatialFrame& to,
+                              double score_threshold) {
   LineSegments result;
-  for (const LineProjection& projection : projectLines(from, to)) {
+  for (const LineProjection& projection : projectLines(from, to, score_threshold)) {
     LineSegment line = scaled(projection.segment, to.size);
     line.score = from.lines[projection.row].segment.score;
     result.push_back(line);
@@ -244,8 +245,11 @@ std::vector<PairRepeatability> RepeatabilityMetrics::measure(const SpatialFrame&
     requireScores(first);
     requireScores(second);
   }
-  const LineSegments forward = scaleProjections(first, second);
-  const LineSegments backward = scaleProjections(second, first);
+  const double lowest = filtered ? *std::min_element(options_.score_thresholds.begin(),
+                                                     options_.score_thresholds.end())
+                                 : kNoScore;
+  const LineSegments forward = scaleProjections(first, second, lowest);
+  const LineSegments backward = scaleProjections(second, first, lowest);
   const ScaledLines first_lines = scaleLines(first);
   const ScaledLines second_lines = scaleLines(second);
 

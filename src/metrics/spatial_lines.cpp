@@ -47,30 +47,39 @@ SpatialFrame liftLines(Protocol protocol, const std::string& frame_name, const L
   SpatialFrame frame{protocol, depth.size(), camera, pose, {}};
   const Rectangle image = imageRectangle(frame.size);
   frame.lines.reserve(lines.size());
+  std::vector<cv::Point> pixels;  // of both endpoints of every line
+  pixels.reserve(2 * lines.size());
   for (std::size_t row = 0; row < lines.size(); ++row) {
     const LineSegment& line = lines[row];
     if (!line.isFinite()) {
       throw Error("detected lines of frame " + frame_name + ", row " + std::to_string(row) + ": " +
                   coordinates(line) + " is not finite");
     }
-    SpatialLine lifted;
-    lifted.segment = line;
+    SpatialLine inside{line, true, std::nullopt};
     if (evolin) {
-      lifted.segment = clampToRectangle(line, image);
+      inside.segment = clampToRectangle(line, image);
     } else if (const std::optional<LineSegment> clipped = clipToRectangle(line, image)) {
-      lifted.segment = *clipped;
+      inside.segment = *clipped;
     } else {
-      lifted.in_image = false;
+      inside.in_image = false;
     }
-    if (lifted.in_image) {
-      lifted.endpoints = backProject(camera, lifted.segment, depth, evolin);
+    pixels.push_back(nearestPixel(inside.segment.x1, inside.segment.y1, frame.size));
+    pixels.push_back(nearestPixel(inside.segment.x2, inside.segment.y2, frame.size));
+    frame.lines.push_back(inside);
+  }
+  const std::vector<double> depths = depth.at(pixels);
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    const EndpointDepths ends{depths[2 * row], depths[2 * row + 1]};
+    SpatialLine& line = frame.lines[row];
+    if (line.in_image && ends.areKnown()) {
+      line.endpoints = backProject(camera, line.segment, ends, evolin);
     }
-    frame.lines.push_back(lifted);
   }
   return frame;
 }
 
-std::vector<LineProjection> projectLines(const SpatialFrame& from, const SpatialFrame& to) {
+std::vector<LineProjection> projectLines(const SpatialFrame& from, const SpatialFrame& to,
+                                         double score_threshold) {
   if (from.protocol != to.protocol) {
     throw Error("cannot project lines between frames of different protocols (" +
                 toString(from.protocol) + " and " + toString(to.protocol) + ")");
@@ -80,7 +89,8 @@ std::vector<LineProjection> projectLines(const SpatialFrame& from, const Spatial
   projections.reserve(from.lines.size());
   for (std::size_t row = 0; row < from.lines.size(); ++row) {
     const std::optional<Segment3d>& endpoints = from.lines[row].endpoints;
-    if (!endpoints) {
+    // Nothing is passed over where either is NaN.
+    if (!endpoints || from.lines[row].segment.score <= score_threshold) {
       continue;
     }
     const std::optional<LineSegment> seen =

@@ -50,13 +50,14 @@ TEST(DepthMap, HasNoneWhereNothingWasMeasured) {
   metres.at<float>(0, 5) = 1;
   const DepthMap depth(metres);
   for (int x = 0; x < 5; ++x) {
-    EXPECT_FALSE(depth.at(x, 0).has_value()) << x;
+    EXPECT_FALSE(DepthMap::isDepth(depth.at(x, 0))) << x;
   }
-  EXPECT_TRUE(depth.at(5, 0).has_value());
-  EXPECT_FALSE(DepthMap(cv::Mat(1, 1, CV_16UC1, cv::Scalar(0))).at(0, 0).has_value());
+  EXPECT_TRUE(DepthMap::isDepth(depth.at(5, 0)));
+  EXPECT_FALSE(DepthMap::isDepth(DepthMap(cv::Mat(1, 1, CV_16UC1, cv::Scalar(0))).at(0, 0)));
   for (const auto& [x, y] : {std::pair(-1, 0), {0, -1}, {6, 0}, {0, 1}}) {
-    EXPECT_FALSE(depth.at(x, y).has_value()) << x << " " << y;
+    EXPECT_EQ(depth.at(x, y), 0) << x << " " << y;
   }
+  EXPECT_EQ(depth.at({{5, 0}, {0, 0}, {-1, -1}, {5, 0}}), (std::vector<double>{1, 0, 0, 1}));
 }
 
 TEST(DepthMap, RefusesWhatIsNoDepth) {
@@ -74,35 +75,45 @@ TEST(BackProject, FollowsThePinholeWithNegativeFocalLength) {
   EXPECT_EQ(point.z(), 2);
 }
 
-TEST(BackProject, RoundsHalvesToEvenForTheDepthLookUp) {
-  cv::Mat metres(4, 4, CV_32FC1, cv::Scalar(1));
-  metres.at<float>(0, 2) = 3;
-  const DepthMap depth(metres);
-  Camera camera = iclCamera();
-  camera.cx = 0;
-  // 1.5 and 2.5 both go to column 2; 0.5 goes to row 0.
-  for (const double x : {1.5, 2.5}) {
-    const auto lifted = backProject(camera, segment(x, 0.5, 0, 0), depth, true);
-    ASSERT_TRUE(lifted.has_value());
-    EXPECT_EQ(lifted->p1.z(), 3);
-    EXPECT_NEAR(lifted->p1.x(), 2 * 3 / camera.fx, 1e-12);  // through the pixel's centre
-  }
-  const auto exact = backProject(camera, segment(1.5, 0.5, 0, 0), depth, false);
-  ASSERT_TRUE(exact.has_value());
-  EXPECT_EQ(exact->p1.z(), 3);
-  EXPECT_NEAR(exact->p1.x(), 1.5 * 3 / camera.fx, 1e-12);
+TEST(NearestPixel, RoundsHalvesToEven) {
+  const ImageSize size{4, 3};
+  EXPECT_EQ(nearestPixel(1.5, 0.5, size), cv::Point(2, 0));
+  EXPECT_EQ(nearestPixel(2.5, 1.5, size), cv::Point(2, 2));
+  EXPECT_EQ(nearestPixel(2.51, -0.5, size), cv::Point(3, 0));
 }
 
-TEST(BackProject, NeedsDepthAtBothEnds) {
-  cv::Mat metres(4, 4, CV_32FC1, cv::Scalar(1));
-  metres.at<float>(3, 3) = 0;
-  const DepthMap depth(metres);
-  EXPECT_TRUE(backProject(iclCamera(), segment(0, 0, 2, 2), depth, true).has_value());
-  EXPECT_FALSE(backProject(iclCamera(), segment(0, 0, 3, 3), depth, true).has_value());
-  EXPECT_FALSE(backProject(iclCamera(), segment(3, 3, 0, 0), depth, true).has_value());
-  EXPECT_FALSE(backProject(iclCamera(), segment(0, 0, 4, 0), depth, true).has_value());
-  EXPECT_FALSE(backProject(iclCamera(), segment(1e300, 0, 0, 0), depth, true).has_value());
-  EXPECT_FALSE(backProject(iclCamera(), segment(std::nan(""), 0, 0, 0), depth, true).has_value());
+TEST(NearestPixel, IsNoneOutsideTheImage) {
+  const ImageSize size{4, 3};
+  for (const auto& [x, y] : {std::pair(3.6, 0.0),
+                             {-0.6, 0},
+                             {0, 2.6},
+                             {0, -1},
+                             {1e300, 0},
+                             {NAN, 0},
+                             {0, NAN},
+                             {-INFINITY, 0}}) {
+    EXPECT_EQ(nearestPixel(x, y, size), cv::Point(-1, -1)) << x << " " << y;
+  }
+}
+
+TEST(BackProject, GoesThroughPixelCentersOnRequest) {
+  Camera camera = iclCamera();
+  camera.cx = 0;
+  const LineSegment line = segment(1.5, 2.5, 6, 7);
+  const Segment3d centered = backProject(camera, line, {3, 4}, true);
+  EXPECT_EQ(centered.p1.z(), 3);
+  EXPECT_EQ(centered.p2.z(), 4);
+  EXPECT_NEAR(centered.p1.x(), 2 * 3 / camera.fx, 1e-12);
+  EXPECT_NEAR(centered.p1.y(), (2 - camera.cy) * 3 / camera.fy, 1e-12);
+  const Segment3d exact = backProject(camera, line, {3, 4}, false);
+  EXPECT_NEAR(exact.p1.x(), 1.5 * 3 / camera.fx, 1e-12);
+  EXPECT_NEAR(exact.p1.y(), (2.5 - camera.cy) * 3 / camera.fy, 1e-12);
+}
+
+TEST(EndpointDepths, AreKnownAtBothEndsOrNotAtAll) {
+  EXPECT_TRUE((EndpointDepths{1, 2}.areKnown()));
+  EXPECT_FALSE((EndpointDepths{0, 2}.areKnown()));
+  EXPECT_FALSE((EndpointDepths{1, NAN}.areKnown()));
 }
 
 Pose turnedPose(double degrees, const Eigen::Vector3d& axis, const Eigen::Vector3d& at) {
@@ -124,12 +135,10 @@ TEST(MotionBetween, TakesPointsThroughTheWorld) {
 
 TEST(Project, UndoesBackProjection) {
   test::RandomLines random(3);
-  const cv::Mat metres(480, 640, CV_32FC1, cv::Scalar(2.5F));
   const Pose pose = turnedPose(40, {1, 0, 1}, {3, 2, 1});
   for (const LineSegment& line : random.anywhere(50, 639, 479)) {
-    const auto lifted = backProject(iclCamera(), line, DepthMap(metres), false);
-    ASSERT_TRUE(lifted.has_value());
-    const auto seen = project(iclCamera(), *lifted, motionBetween(pose, pose), true);
+    const Segment3d lifted = backProject(iclCamera(), line, {2.5, 1.5}, false);
+    const auto seen = project(iclCamera(), lifted, motionBetween(pose, pose), true);
     ASSERT_TRUE(seen.has_value());
     EXPECT_NEAR(seen->x1, line.x1, 1e-9);
     EXPECT_NEAR(seen->y1, line.y1, 1e-9);

@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 #include "evolin_ros/geometry/camera.h"
 #include "evolin_ros/geometry/image_size.h"
@@ -24,12 +27,25 @@ class DepthMap {
 
   ImageSize size() const { return {image_.cols, image_.rows}; }
 
-  /// Metres at column x and row y; none outside the image, and where the value is not positive or
-  /// not finite.
-  std::optional<double> at(int x, int y) const;
+  /// Metres at column x and row y as the image has them (see isDepth()); 0 outside the image.
+  double at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= image_.cols || y >= image_.rows) {
+      return 0;
+    }
+    return in_units_ ? image_.at<std::uint16_t>(y, x) / factor_
+                     : static_cast<double>(image_.at<float>(y, x));
+  }
+
+  /// The same for many pixels, in their order: scattered reads of a large image are slow one by one
+  /// and overlap in a short loop.
+  std::vector<double> at(const std::vector<cv::Point>& pixels) const;
+
+  /// False for what stands for "not measured": 0, NaN, infinite or negative numbers.
+  static bool isDepth(double metres) { return metres > 0 && std::isfinite(metres); }
 
  private:
   cv::Mat image_;
+  bool in_units_;
   double factor_;
 };
 
@@ -44,12 +60,23 @@ struct Segment3d {
 /// negative.
 Eigen::Vector3d backProject(const Camera& camera, double x, double y, double depth);
 
-/// The segment in space behind a segment of the image, with the depth at the pixels nearest to its
-/// endpoints (halves to the even one); none when either has no depth. With `from_pixel_centers` the
-/// rays go through those pixels' centres (the published implementation), else through the endpoints
-/// themselves.
-std::optional<Segment3d> backProject(const Camera& camera, const LineSegment& segment,
-                                     const DepthMap& depth, bool from_pixel_centers);
+/// The pixel nearest to (x, y), halves to the even one; (-1, -1) where that is outside the image or
+/// a coordinate is NaN.
+cv::Point nearestPixel(double x, double y, ImageSize size);
+
+/// Metres along the optical axis at a segment's endpoints.
+struct EndpointDepths {
+  double first = 0;
+  double second = 0;
+
+  bool areKnown() const { return DepthMap::isDepth(first) && DepthMap::isDepth(second); }
+};
+
+/// The segment in space behind a segment of the image. With `from_pixel_centers` the rays go
+/// through the centres of the pixels nearest to the endpoints (the published implementation), else
+/// through the endpoints themselves.
+Segment3d backProject(const Camera& camera, const LineSegment& segment, EndpointDepths depths,
+                      bool from_pixel_centers);
 
 /// Takes points of the camera at `first` to the camera at `second`; both poses are camera to world.
 Eigen::Isometry3d motionBetween(const Pose& first, const Pose& second);

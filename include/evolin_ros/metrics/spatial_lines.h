@@ -48,8 +48,10 @@ struct LineProjection {
 /// Images of `from`'s lines in `to`, by rising row, without those that have no depth or nothing
 /// inside the image. Besides, kEvolin drops those with x1 == x2 or y1 == y2, both before and after
 /// clamping (so every exactly horizontal or vertical one), and takes points behind the camera as
-/// they come; kPaper drops those with an endpoint behind the camera and those of zero length.
-/// Throws Error when the protocols differ.
-std::vector<LineProjection> projectLines(const SpatialFrame& from, const SpatialFrame& to);
+/// they come; kPaper drops those with an endpoint behind the camera and those of zero length. Lines
+/// whose score is at most `score_threshold` are passed over (NaN: none is). Throws Error when the
+/// protocols differ.
+std::vector<LineProjection> projectLines(const SpatialFrame& from, const SpatialFrame& to,
+                                         double score_threshold = kNoScore);
 
 }  // namespace evolin
