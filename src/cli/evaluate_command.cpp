@@ -25,10 +25,26 @@ const std::vector<Family>& families() {
       {"association", "matched index pairs against true ones: precision, recall, F-score",
        evaluateAssociation},
       {"heatmap", "detected lines against true lines as pixels", nullptr},
-      {"repeatability", "lines found again in later frames", nullptr},
+      {"repeatability", "lines found again in later frames: repeatability, localisation error",
+       evaluateRepeatability},
       {"pose", "relative pose from matched lines", nullptr},
   };
   return kFamilies;
+}
+
+/// "vectorized, association or heatmap": those that this version has.
+std::string availableFamilies() {
+  std::vector<std::string> names;
+  for (const Family& family : families()) {
+    if (family.run != nullptr) {
+      names.push_back(family.name);
+    }
+  }
+  std::string text;
+  for (std::size_t index = 0; index < names.size(); ++index) {
+    text += (index == 0 ? "" : index + 1 == names.size() ? " or " : ", ") + names[index];
+  }
+  return text;
 }
 
 void printHelp() {
@@ -50,7 +66,7 @@ int runEvaluate(const std::vector<std::string>& arguments) {
     names.push_back(family.name);
   }
   if (arguments.empty()) {
-    throw UsageError("no metric family given; expected vectorized or association");
+    throw UsageError("no metric family given; expected " + availableFamilies());
   }
   const std::string& name = arguments[0];
   if (name == "--help" || name == "-h") {
@@ -64,8 +80,8 @@ int runEvaluate(const std::vector<std::string>& arguments) {
                      nearestWord(name, names) + "'?");
   }
   if (family->run == nullptr) {
-    throw UsageError("this version does not have the metric family '" + name +
-                     "' yet; expected vectorized or association");
+    throw UsageError("this version does not have the metric family '" + name + "' yet; expected " +
+                     availableFamilies());
   }
   return family->run({arguments.begin() + 1, arguments.end()});
 }

@@ -13,4 +13,8 @@ int evaluateVectorized(const std::vector<std::string>& arguments);
 /// may.
 int evaluateAssociation(const std::vector<std::string>& arguments);
 
+/// Repeatability and localisation error over pairs of frames with depth and poses. Returns the exit
+/// status; throws as Command::run may.
+int evaluateRepeatability(const std::vector<std::string>& arguments);
+
 }  // namespace evolin::cli

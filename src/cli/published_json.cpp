@@ -60,20 +60,20 @@ std::string additionalInformation(const PublishedEntry& entry) {
     }
     information.add("distance_information", distance.str());
   }
-  if (entry.score_threshold) {
-    ObjectText score;
-    score.add("score_threshold", number(*entry.score_threshold));
-    information.add("score_information", score.str());
+  if (entry.threshold) {
+    ObjectText threshold;
+    threshold.add("threshold", number(*entry.threshold));
+    information.add("threshold_information", threshold.str());
   }
   if (entry.frames_step) {
     ObjectText step;
     step.add("step", std::to_string(*entry.frames_step));
     information.add("frames_step_information", step.str());
   }
-  if (entry.threshold) {
-    ObjectText threshold;
-    threshold.add("threshold", number(*entry.threshold));
-    information.add("threshold_information", threshold.str());
+  if (entry.score_threshold) {
+    ObjectText score;
+    score.add("score_threshold", number(*entry.score_threshold));
+    information.add("score_information", score.str());
   }
   if (entry.confidence_interval) {
     ObjectText interval;

@@ -1,10 +1,10 @@
 // EVOLIN folders: images and lists by row, as the benchmark's published scripts read them.
 #include <algorithm>
-#include <string_view>
 #include <unordered_map>
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
+#include "evolin_ros/dataset/depth_associations.h"
 #include "evolin_ros/dataset/stamps_file.h"
 #include "evolin_ros/dataset/trajectory.h"
 #include "sequence_plan.h"
@@ -83,46 +83,15 @@ Stamp depthStamp(const SequencePlan& plan, const PlannedFrame& frame, std::size_
 }
 
 void pairDepthByList(const std::vector<fs::path>& depths, SequencePlan* plan) {
-  const fs::path list = plan->folder / kDepthAssociations;
   plan->depth_list = kDepthAssociations;
-  std::vector<bool> seen(plan->frames.size(), false);
-  int number = 0;
-  for (const std::string& line : readLines(list)) {
-    ++number;
-    const std::string_view text = trim(line);
-    if (text.empty() || text.front() == '#') {
-      continue;
+  const std::vector<std::optional<std::size_t>> rows =
+      readDepthAssociations(plan->folder / kDepthAssociations, plan->frames.size(), depths.size());
+  for (std::size_t image = 0; image < rows.size(); ++image) {
+    if (rows[image]) {
+      PlannedFrame& frame = plan->frames[image];
+      frame.depth = relativeName(depths[*rows[image]]);
+      frame.depth_stamp = depthStamp(*plan, frame, *rows[image]);
     }
-    const std::vector<std::string_view> words = splitWords(text);
-    if (words.size() != 2) {
-      throw ParseError(list.string(), number,
-                       std::to_string(words.size()) + " fields in " + quote(text) +
-                           ", expected two: image index, depth index");
-    }
-    const auto index = [&](std::size_t column, const std::string& kind, std::size_t count) {
-      const std::optional<double> value = parseDouble(words[column]);
-      // Written so that NaN fails too.
-      if (!value || !(*value >= 0 && *value < static_cast<double>(count)) ||
-          *value != static_cast<double>(static_cast<std::size_t>(*value))) {
-        throw ParseError(list.string(), number,
-                         kind + " index is " + quote(words[column]) +
-                             ", expected a whole number from 0 to " + std::to_string(count) +
-                             " exclusive (the folder has " + std::to_string(count) + ")");
-      }
-      return static_cast<std::size_t>(*value);
-    };
-    const std::size_t image = index(0, "image", plan->frames.size());
-    const std::size_t depth = index(1, "depth", depths.size());
-    if (seen[image]) {
-      throw ParseError(list.string(), number,
-                       "image index " + quote(words[0]) +
-                           " occurs twice, expected one depth an "
-                           "image");
-    }
-    seen[image] = true;
-    PlannedFrame& frame = plan->frames[image];
-    frame.depth = relativeName(depths[depth]);
-    frame.depth_stamp = depthStamp(*plan, frame, depth);
   }
 }
 

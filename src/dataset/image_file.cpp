@@ -137,14 +137,19 @@ cv::Mat decode(const std::filesystem::path& file, int flags) {
 
 cv::Mat readImage(const std::filesystem::path& file) { return decode(file, cv::IMREAD_ANYCOLOR); }
 
-cv::Mat readDepthImage(const std::filesystem::path& file, double depth_factor) {
-  const cv::Mat stored = decode(file, cv::IMREAD_UNCHANGED);
+cv::Mat readStoredDepth(const std::filesystem::path& file) {
+  cv::Mat stored = decode(file, cv::IMREAD_UNCHANGED);
   if (stored.type() != CV_16UC1) {
     throw ParseError(file.string(), 0,
                      "the depth image has " + std::to_string(stored.channels()) + " channels of " +
                          std::to_string(8 * stored.elemSize1()) +
                          " bits, expected one channel of 16 bits");
   }
+  return stored;
+}
+
+cv::Mat readDepthImage(const std::filesystem::path& file, double depth_factor) {
+  const cv::Mat stored = readStoredDepth(file);
   cv::Mat depth(stored.size(), CV_32FC1);
   for (int row = 0; row < stored.rows; ++row) {
     const std::uint16_t* from = stored.ptr<std::uint16_t>(row);

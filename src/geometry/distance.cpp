@@ -64,4 +64,6 @@ double orthogonalDistance(const LineSegment& a, const LineSegment& b, bool overl
   return (endpointsToLine(a, length_a, b) + endpointsToLine(b, length_b, a)) / 2;
 }
 
+double coveredShare(const LineSegment& a, const LineSegment& b) { return overlap(a, b); }
+
 }  // namespace evolin

@@ -9,27 +9,13 @@
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/geometry/clipping.h"
 #include "nearest_line.h"
+#include "scaling.h"
 
 namespace evolin {
 
 namespace {
 
-constexpr double kScaledSide = 128;
 constexpr double kNoFilter = -std::numeric_limits<double>::infinity();
-
-LineSegment scaled(const LineSegment& line, ImageSize size) {
-  LineSegment result = line;
-  result.x1 = line.x1 * kScaledSide / size.width;
-  result.y1 = line.y1 * kScaledSide / size.height;
-  result.x2 = line.x2 * kScaledSide / size.width;
-  result.y2 = line.y2 * kScaledSide / size.height;
-  return result;
-}
-
-std::string coordinates(const LineSegment& line) {
-  return formatDouble(line.x1) + "," + formatDouble(line.y1) + "," + formatDouble(line.x2) + "," +
-         formatDouble(line.y2);
-}
 
 LineSegments prepareGroundTruth(const std::string& frame, ImageSize size,
                                 const LineSegments& lines) {

@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
+#include <utility>
 
 #include "evaluate_command.h"
 #include "test/support/shared_data.h"
@@ -22,8 +25,13 @@ json readJson(const std::filesystem::path& file) {
   return json::parse(stream);
 }
 
-/// Runs the program with --output and returns what it wrote.
-json evaluate(std::vector<std::string> arguments) {
+std::string readText(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Runs the program with --output and returns the text that it wrote.
+std::string evaluateText(std::vector<std::string> arguments) {
   const test::TemporaryFolder folder;
   const std::string output = (folder.path() / "out").string();
   arguments.insert(arguments.begin(), "evaluate");
@@ -32,7 +40,11 @@ json evaluate(std::vector<std::string> arguments) {
   const int status = runProgram({evaluateCommand()}, arguments);
   ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(status, kExitDone);
-  return status == kExitDone ? readJson(folder.path() / "out" / "result.json") : json();
+  return status == kExitDone ? readText(folder.path() / "out" / "result.json") : "null";
+}
+
+json evaluate(const std::vector<std::string>& arguments) {
+  return json::parse(evaluateText(arguments));
 }
 
 void expectNear(const json& actual, const json& expected, const std::string& where) {
@@ -125,6 +137,99 @@ INSTANTIATE_TEST_SUITE_P(EvaluateAssociation, GoldenAssociations,
                          [](const auto& info) {
                            return info.param.substr(info.param.find('/') + 1);
                          });
+
+/// With every value's number replaced and without white space at the ends.
+std::string formOf(const std::string& text) {
+  static const std::regex kValue(R"("value": [-+.0-9e]+)");
+  const std::string form = std::regex_replace(text, kValue, R"("value": #)");
+  return form.substr(0, form.find_last_not_of(" \n") + 1);
+}
+
+std::vector<std::string> repeatabilityArguments(const std::filesystem::path& sequence,
+                                                const std::filesystem::path& lines) {
+  return {"repeatability",
+          "--pred-lines",
+          lines.string(),
+          "--depths",
+          (sequence / "depth").string(),
+          "--poses",
+          (sequence / "poses.txt").string(),
+          "--depth-associations",
+          (sequence / "depth_associations.txt").string(),
+          "--calibration-matrix",
+          (sequence / "calibration_matrix.txt").string()};
+}
+
+/// Also the names, their order and the order of keys, by the text itself.
+void checkRepeatability(std::vector<std::string> arguments, const std::vector<std::string>& more,
+                        const std::filesystem::path& expected) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const std::string text = evaluateText(arguments);
+  EXPECT_EQ(formOf(text), formOf(readText(expected)));
+  expectGolden(json::parse(text), expected);
+}
+
+void checkScoredRepeatability(const std::filesystem::path& sequence,
+                              const std::filesystem::path& scored, std::vector<std::string> more,
+                              const std::filesystem::path& expected) {
+  more.insert(more.end(), {"--scores", (scored / "scores").string(), "--score-thresholds",
+                           (scored / "score_thresholds.txt").string()});
+  checkRepeatability(repeatabilityArguments(sequence, scored / "lines"), more, expected);
+}
+
+TEST(EvaluateRepeatability, EqualsThePublishedFiguresOnTheLivingRoom) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  const std::filesystem::path sample = data() / "icl_nuim_lr_sample";
+  const std::filesystem::path expected = data() / "golden" / "icl";
+  checkRepeatability(repeatabilityArguments(sample, sample / "predictions" / "unscored"),
+                     {"-f", "1"}, expected / "repeatability_unscored.json");
+  checkScoredRepeatability(sample, sample / "predictions" / "scored", {"-f", "1"},
+                           expected / "repeatability_scored.json");
+}
+
+class GoldenRepeatability
+    : public ::testing::TestWithParam<std::pair<std::string, std::vector<std::string>>> {};
+
+TEST_P(GoldenRepeatability, EqualsThePublishedFigures) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  const auto& [name, steps] = GetParam();
+  const std::filesystem::path set = data() / "golden" / "sets" / name;
+  std::vector<std::string> more = {"--frames-steps"};
+  more.insert(more.end(), steps.begin(), steps.end());
+  checkRepeatability(repeatabilityArguments(set, set / "scored_lines" / "lines"), more,
+                     set / "expected" / "repeatability_unscored.json");
+  checkScoredRepeatability(set, set / "scored_lines", more,
+                           set / "expected" / "repeatability_scored.json");
+}
+
+INSTANTIATE_TEST_SUITE_P(EvaluateRepeatability, GoldenRepeatability,
+                         ::testing::Values(std::make_pair("basic",
+                                                          std::vector<std::string>{"1", "2"}),
+                                           std::make_pair("edge", std::vector<std::string>{"1"})),
+                         [](const auto& info) { return info.param.first; });
+
+TEST(EvaluateRepeatability, EqualsThePublishedHeadlinesOfTheTimingSet) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  const std::filesystem::path set = data() / "golden" / "sets" / "timing";
+  const test::TemporaryFolder folder;
+  std::vector<std::string> arguments = repeatabilityArguments(set, set / "scored_lines" / "lines");
+  arguments.insert(arguments.end(),
+                   {"--scores", (set / "scored_lines" / "scores").string(), "--score-thresholds",
+                    folder.write("threshold.txt", "0.4\n").string(), "-f", "1"});
+  const json entries = evaluate(arguments);
+  ASSERT_EQ(entries.size(), 12U);
+  const json expected =
+      readJson(set / "expected" / "summary.json")["repeatability_step1_score_gt_0.4 (rep, loc)"];
+  ASSERT_EQ(expected.size(), 6U);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const json& about = entries[i]["additional_information"]["distance_information"];
+    const std::string key =
+        about["distance"].get<std::string>() + "_" +
+        std::to_string(static_cast<int>(about["distance_threshold"].get<double>()));
+    EXPECT_NEAR(entries[i]["value"].get<double>(), expected[key][i % 2].get<double>(), kTolerance)
+        << key << ", " << entries[i]["name"];
+  }
+}
 
 }  // namespace
 }  // namespace evolin::cli

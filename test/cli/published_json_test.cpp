@@ -49,9 +49,9 @@ TEST(PublishedJson, KeepsThePublishedOrderOfKeys) {
   entry.threshold = 3;
   EXPECT_EQ(toPublishedJson({entry}),
             R"([{"name": "precision", "additional_information": {"distance_information": )"
-            R"({"distance": "orthogonal", "distance_threshold": 5.0}, "score_information": )"
-            R"({"score_threshold": 0.3}, "frames_step_information": {"step": 10}, )"
-            R"("threshold_information": {"threshold": 3.0}}, "value": 0.25}])");
+            R"({"distance": "orthogonal", "distance_threshold": 5.0}, "threshold_information": )"
+            R"({"threshold": 3.0}, "frames_step_information": {"step": 10}, )"
+            R"("score_information": {"score_threshold": 0.3}}, "value": 0.25}])");
 }
 
 TEST(PublishedJson, WritesNullWithoutAdditionalInformation) {

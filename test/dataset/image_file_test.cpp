@@ -123,6 +123,20 @@ TEST(ReadDepthImage, GivesMetresAndNanForNoDepth) {
   EXPECT_EQ(readDepthImage(file, 1000).at<float>(0, 2), 5.0F);
 }
 
+TEST(ReadStoredDepth, GivesTheUnitsAsTheyAre) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "d.png").string();
+  const cv::Mat written = (cv::Mat_<std::uint16_t>(1, 3) << 0, 1, 65535);
+  cv::imwrite(file, written);
+  const cv::Mat stored = readStoredDepth(file);
+  ASSERT_EQ(stored.type(), CV_16UC1);
+  EXPECT_EQ(stored.at<std::uint16_t>(0, 0), 0);
+  EXPECT_EQ(stored.at<std::uint16_t>(0, 1), 1);
+  EXPECT_EQ(stored.at<std::uint16_t>(0, 2), 65535);
+  cv::imwrite(file, noise(CV_8UC1));
+  expectError<ParseError>([&] { readStoredDepth(file); }, {"d.png", "1 channels of 8 bits"});
+}
+
 TEST(ReadDepthImage, RefusesAnImageOfAnotherType) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "d.png").string();

@@ -109,5 +109,16 @@ TEST(Distances, AreSymmetricAndBlindToTheOrderOfEndpoints) {
   EXPECT_GT(finite, 20);
 }
 
+TEST(CoveredShare, IsThePartUnderTheOthersProjection) {
+  const LineSegment line = segment(0, 0, 10, 0);
+  EXPECT_DOUBLE_EQ(coveredShare(line, segment(2, 7, 6, -3)), 0.4);
+  EXPECT_DOUBLE_EQ(coveredShare(line, segment(6, -3, 2, 7)), 0.4);
+  EXPECT_DOUBLE_EQ(coveredShare(line, segment(-5, 1, 3, 1)), 0.3);
+  EXPECT_EQ(coveredShare(line, segment(-5, 1, 30, 1)), 1);
+  EXPECT_EQ(coveredShare(line, segment(11, 1, 30, 1)), 0);
+  EXPECT_EQ(coveredShare(line, segment(4, 1, 4, 9)), 0);
+  EXPECT_EQ(coveredShare(segment(4, 4, 4, 4), line), 0);
+}
+
 }  // namespace
 }  // namespace evolin

@@ -12,9 +12,12 @@ namespace evolin {
 /// which decoders would fill up with grey.
 cv::Mat readImage(const std::filesystem::path& file);
 
-/// CV_32FC1 metres from a 16-bit one-channel image that stores metres x `depth_factor`; 0 in the
-/// file means no depth and becomes NaN. Throws ParseError as above, and for an image of another
+/// CV_16UC1 as stored; 0 means no depth. Throws ParseError as above, and for an image of another
 /// type.
+cv::Mat readStoredDepth(const std::filesystem::path& file);
+
+/// CV_32FC1 metres from a 16-bit one-channel image that stores metres x `depth_factor`; 0 in the
+/// file means no depth and becomes NaN. Throws as readStoredDepth().
 cv::Mat readDepthImage(const std::filesystem::path& file, double depth_factor);
 
 }  // namespace evolin

@@ -21,4 +21,8 @@ double structuralDistance(const LineSegment& a, const LineSegment& b);
 /// length.
 double orthogonalDistance(const LineSegment& a, const LineSegment& b, bool overlap_gate);
 
+/// The part of `a`, as a fraction of its length, that `b` covers when projected onto it; in [0, 1];
+/// 0 when `a` has no length.
+double coveredShare(const LineSegment& a, const LineSegment& b);
+
 }  // namespace evolin

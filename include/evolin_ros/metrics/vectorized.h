@@ -9,17 +9,13 @@
 #include <vector>
 
 #include "evolin_ros/geometry/distance.h"
+#include "evolin_ros/geometry/image_size.h"
 #include "evolin_ros/geometry/line_segment.h"
 #include "evolin_ros/metrics/classification.h"
 #include "evolin_ros/metrics/protocol.h"
 #include "evolin_ros/metrics/score_ranking.h"
 
 namespace evolin {
-
-struct ImageSize {
-  int width = 0;
-  int height = 0;
-};
 
 /// One distance with one threshold, in pixels of the 128 x 128 image that lines are scaled to.
 struct VectorizedSetting {
