@@ -26,7 +26,7 @@ const std::vector<Family>& families() {
        evaluateAssociation},
       {"heatmap", "detected lines against true lines as pixels", nullptr},
       {"repeatability", "lines found again in later frames", nullptr},
-      {"pose", "relative pose from matched lines", nullptr},
+      {"pose", "relative pose from matched lines: rotation and translation errors", evaluatePose},
   };
   return kFamilies;
 }
@@ -50,7 +50,7 @@ int runEvaluate(const std::vector<std::string>& arguments) {
     names.push_back(family.name);
   }
   if (arguments.empty()) {
-    throw UsageError("no metric family given; expected vectorized or association");
+    throw UsageError("no metric family given; expected vectorized, association or pose");
   }
   const std::string& name = arguments[0];
   if (name == "--help" || name == "-h") {
@@ -65,7 +65,7 @@ int runEvaluate(const std::vector<std::string>& arguments) {
   }
   if (family->run == nullptr) {
     throw UsageError("this version does not have the metric family '" + name +
-                     "' yet; expected vectorized or association");
+                     "' yet; expected vectorized, association or pose");
   }
   return family->run({arguments.begin() + 1, arguments.end()});
 }

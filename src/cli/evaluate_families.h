@@ -13,4 +13,7 @@ int evaluateVectorized(const std::vector<std::string>& arguments);
 /// may.
 int evaluateAssociation(const std::vector<std::string>& arguments);
 
+/// Relative pose from matched lines with depth. Returns the exit status; throws as Command::run may.
+int evaluatePose(const std::vector<std::string>& arguments);
+
 }  // namespace evolin::cli
