@@ -27,7 +27,7 @@ const std::vector<Family>& families() {
       {"heatmap", "detected lines against true lines as pixels", nullptr},
       {"repeatability", "lines found again in later frames: repeatability, localisation error",
        evaluateRepeatability},
-      {"pose", "relative pose from matched lines", nullptr},
+      {"pose", "relative pose from matched lines: rotation and translation errors", evaluatePose},
   };
   return kFamilies;
 }

@@ -17,4 +17,7 @@ int evaluateAssociation(const std::vector<std::string>& arguments);
 /// status; throws as Command::run may.
 int evaluateRepeatability(const std::vector<std::string>& arguments);
 
+/// Relative pose from matched lines with depth. Returns the exit status; throws as Command::run may.
+int evaluatePose(const std::vector<std::string>& arguments);
+
 }  // namespace evolin::cli
