@@ -2,7 +2,6 @@
 #include <boost/program_options/value_semantic.hpp>
 #include <cmath>
 #include <iostream>
-#include <memory>
 
 #include "evaluate_families.h"
 #include "evaluate_options.h"
@@ -10,9 +9,8 @@
 #include "evolin_ros/dataset/camera_file.h"
 #include "evolin_ros/dataset/csv.h"
 #include "evolin_ros/dataset/image_file.h"
+#include "evolin_ros/evaluation/pose_task.h"
 #include "evolin_ros/metrics/pose_error.h"
-#include "evolin_ros/pose/evolin_pose.h"
-#include "evolin_ros/pose/robust_pose.h"
 #include "options.h"
 #include "parallel.h"
 #include "pose_inputs.h"
@@ -37,7 +35,7 @@ struct Request {
   std::vector<double> thresholds = {1, 3, 5, 10};
   double depth_factor = Camera().depth_factor;
   std::string strategy = toString(PoseStrategy::kEvolin);
-  std::uint64_t seed = RobustPoseOptions().seed;
+  std::uint64_t seed = PoseMethodOptions().seed;
   bool statistics = false;
   EvaluateOptions common;
 };
@@ -111,46 +109,18 @@ bool readRequest(const std::vector<std::string>& arguments, Request* request) {
   return true;
 }
 
-/// What strategy and protocol mean together. The robust strategy is in no protocol's tables and
-/// takes endpoints as exactly as they are known.
-struct Method {
-  std::unique_ptr<RelativePoseEstimator> estimator;
-  EndpointRule endpoints = EndpointRule::kExact;
-};
-
-Method makeMethod(const Request& request) {
-  const bool paper = protocolOf(request.common) == Protocol::kPaper;
-  Method method;
-  if (parsePoseStrategy(request.strategy) == PoseStrategy::kRobust) {
-    RobustPoseOptions options;
-    options.seed = request.seed;
-    method.estimator = std::make_unique<RobustPoseEstimator>(options);
-  } else {
-    EvolinPoseOptions options;
-    options.normalised = paper;
-    method.estimator = std::make_unique<EvolinPoseEstimator>(options);
-    method.endpoints = paper ? EndpointRule::kExact : EndpointRule::kTruncated;
-  }
-  return method;
-}
-
-LiftedLines liftFrame(const Request& request, const Method& method, const Camera& camera,
+LiftedLines liftFrame(const Request& request, const PoseMethod& method, const Camera& camera,
                       const PoseFrame& frame) {
   const DepthMap depth(readStoredDepth(frame.depth), request.depth_factor);
-  return liftEndpoints(frame.stem, readLinesCsv(frame.lines), depth, camera, method.endpoints);
+  return liftEndpoints(frame.stem, readLinesCsv(frame.lines), depth, camera, method.endpoints());
 }
 
-std::optional<PoseErrors> errorsOf(const RelativePose& estimate, const Pose& truth,
-                                   Protocol protocol) {
-  return estimate.found() ? poseErrors(truth, estimate.first_to_second, protocol) : std::nullopt;
-}
-
-PosePair measurePair(const Request& request, const Method& method, const Camera& camera,
+PosePair measurePair(const Request& request, const PoseMethod& method, const Camera& camera,
                      const PoseFrame& first, const PoseFrame& second,
                      const std::filesystem::path& associations) {
-  SpatialMatches matches;
+  PoseTask task;
   try {
-    matches =
+    task.matches =
         liftedMatches(liftFrame(request, method, camera, first),
                       liftFrame(request, method, camera, second), readIndexPairsCsv(associations));
   } catch (const ParseError&) {
@@ -158,16 +128,9 @@ PosePair measurePair(const Request& request, const Method& method, const Camera&
   } catch (const Error& error) {
     throw ParseError(associations.string(), 0, error.what());
   }
-  const RelativePose forward = method.estimator->estimate(matches, camera);
-  const RelativePose backward = method.estimator->estimate(exchanged(matches), camera);
-  const Protocol protocol = protocolOf(request.common);
-  const Pose truth = relativeMotion(*first.pose, *second.pose);
-  PosePair pair;
-  pair.errors = meanErrors(errorsOf(forward, truth, protocol),
-                           errorsOf(backward, relativeMotion(*second.pose, *first.pose), protocol));
-  pair.moved = truth.translation.norm();
-  pair.ill_conditioned = pair.errors && (forward.ill_conditioned || backward.ill_conditioned);
-  return pair;
+  task.camera = camera;
+  task.truth = relativeMotion(*first.pose, *second.pose);
+  return runPoseTask(task, method).pair;
 }
 
 /// Entries of one frames step, in the published order.
@@ -261,7 +224,8 @@ int evaluatePose(const std::vector<std::string>& arguments) {
   if (!readRequest(arguments, &request)) {
     return kExitDone;
   }
-  const Method method = makeMethod(request);
+  const PoseMethod method(
+      {protocolOf(request.common), parsePoseStrategy(request.strategy), request.seed});
   const Camera camera = readCalibrationMatrix(request.calibration_matrix);
   const PoseInputs inputs = listPoseInputs(request.files);
   std::vector<PosePair> pairs(inputs.pairs.size());

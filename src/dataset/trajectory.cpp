@@ -80,6 +80,17 @@ Trajectory::Trajectory(std::vector<StampedPose> poses) : poses_(std::move(poses)
   }
 }
 
+bool Trajectory::add(const StampedPose& pose) {
+  const auto place =
+      std::lower_bound(poses_.begin(), poses_.end(), pose.stamp,
+                       [](const StampedPose& known, Stamp time) { return known.stamp < time; });
+  if (place != poses_.end() && place->stamp == pose.stamp) {
+    return false;
+  }
+  poses_.insert(place, pose);
+  return true;
+}
+
 std::optional<Pose> Trajectory::at(Stamp stamp) const {
   const auto after =
       std::lower_bound(poses_.begin(), poses_.end(), stamp,

@@ -23,21 +23,48 @@ bool hasIds(const LineSegments& lines) {
                      [](const LineSegment& line) { return line.id >= 0; });
 }
 
-FrameState stateByWhatIsMissing(bool has_lines) {
-  return has_lines ? FrameState::kNoGroundTruth : FrameState::kUnmatched;
+std::vector<std::int64_t> trackIdsOf(const LineSegments& lines) {
+  std::vector<std::int64_t> ids;
+  if (hasIds(lines)) {
+    for (const LineSegment& line : lines) {
+      ids.push_back(line.id);
+    }
+  }
+  return ids;
+}
+
+template <class Item>
+void appendTo(std::vector<Item>* items, std::vector<Item> others) {
+  std::move(others.begin(), others.end(), std::back_inserter(*items));
+}
+
+MotionOptions motionOptionsOf(const PassOptions& options) {
+  MotionOptions motion = options.motion;
+  motion.repeatability = options.families.count(MetricFamily::kRepeatability) != 0;
+  motion.pose = options.families.count(MetricFamily::kPose) != 0;
+  motion.pose_errors = options.evaluation.pose_errors;
+  motion.buffer = options.buffer;
+  return motion;
 }
 
 }  // namespace
 
 void EvaluationUpdate::append(EvaluationUpdate other) {
-  std::move(other.frames.begin(), other.frames.end(), std::back_inserter(frames));
-  std::move(other.pairs.begin(), other.pairs.end(), std::back_inserter(pairs));
-  std::move(other.notes.begin(), other.notes.end(), std::back_inserter(notes));
+  appendTo(&frames, std::move(other.frames));
+  appendTo(&pairs, std::move(other.pairs));
+  appendTo(&detected_pairs, std::move(other.detected_pairs));
+  appendTo(&repeatability, std::move(other.repeatability));
+  appendTo(&heatmaps, std::move(other.heatmaps));
+  appendTo(&poses, std::move(other.poses));
+  appendTo(&tasks, std::move(other.tasks));
+  appendTo(&notes, std::move(other.notes));
   new_pass = new_pass || other.new_pass;
 }
 
 PassEvaluation::PassEvaluation(PassOptions options)
-    : options_(std::move(options)), evaluator_(options_.evaluation) {}
+    : options_(std::move(options)),
+      evaluator_(options_.evaluation),
+      motion_(motionOptionsOf(options_)) {}
 
 PassEvaluation::Entry& PassEvaluation::entryAt(Stamp stamp) {
   const auto [place, is_new] = entries_.try_emplace(stamp);
@@ -72,7 +99,9 @@ std::uint32_t PassEvaluation::placeOfLines(Stamp stamp) {
 
 EvaluationUpdate PassEvaluation::addImage(Stamp stamp) {
   entryAt(stamp).image = true;
-  return {};
+  EvaluationUpdate update;
+  take(motion_.addImage(stamp), &update);
+  return update;
 }
 
 EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
@@ -81,6 +110,11 @@ EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
   Entry& entry = entryAt(stamp);
   entry.number = placeOfLines(stamp);
   entry.record.lines = lines.lines.size();
+  entry.line_count = lines.lines.size();
+  if (wants(MetricFamily::kTracks)) {
+    entry.track_ids = trackIdsOf(lines.lines);
+  }
+  take(motion_.addLines(lines), &update);
   if (!isMeasured(lines.processing_time)) {
     lines.processing_time = 0;
   }
@@ -106,6 +140,7 @@ EvaluationUpdate PassEvaluation::addGroundTruth(LineSet ground_truth) {
   entry.record.ground_truth = ground_truth.lines.size();
   ground_truth_source_ = ground_truth.source;
   ++ground_truth_seen_;
+  take(motion_.addGroundTruth(ground_truth), &update);
   if (entry.released) {
     setState(&entry, FrameState::kDropped);
     return update;
@@ -128,6 +163,7 @@ EvaluationUpdate PassEvaluation::addMatches(MatchSet matches) {
   matches_source_ = matches.source;
   matches_lines_source_ = matches.lines_source;
   newest_matches_ = std::max(matches.stamp, newest_matches_.value_or(matches.stamp));
+  take(motion_.addMatches(matches), &update);
   if (evaluatePair(matches, &update)) {
     return update;
   }
@@ -140,14 +176,75 @@ EvaluationUpdate PassEvaluation::addMatches(MatchSet matches) {
   return update;
 }
 
+EvaluationUpdate PassEvaluation::setCamera(const Camera& camera) {
+  EvaluationUpdate update;
+  take(motion_.setCamera(camera), &update);
+  return update;
+}
+
+EvaluationUpdate PassEvaluation::addDepth(Stamp stamp, DepthMap depth) {
+  EvaluationUpdate update;
+  take(motion_.addDepth(stamp, std::move(depth)), &update);
+  return update;
+}
+
+EvaluationUpdate PassEvaluation::addPose(const StampedPose& pose) {
+  EvaluationUpdate update;
+  take(motion_.addPose(pose), &update);
+  return update;
+}
+
+void PassEvaluation::take(MotionUpdate motion, EvaluationUpdate* update) {
+  repeatability_records_.insert(repeatability_records_.end(), motion.repeatability.begin(),
+                                motion.repeatability.end());
+  appendTo(&update->repeatability, std::move(motion.repeatability));
+  for (PoseTask& task : motion.pose_tasks) {
+    ++poses_pending_;
+    update->tasks.push_back({0, 0, std::move(task)});
+  }
+  for (const std::string& text : motion.notes) {
+    note(text, update);
+  }
+}
+
+EvaluationUpdate PassEvaluation::addResult(const EvaluationResult& result) {
+  EvaluationUpdate update;
+  if (const auto* pose = std::get_if<PoseRecord>(&result.record)) {
+    --poses_pending_;
+    evaluator_.addPose(*pose);
+    pose_records_.push_back(*pose);
+    update.poses.push_back(*pose);
+    return update;
+  }
+  const auto& heatmap = std::get<HeatmapRecord>(result.record);
+  --heatmaps_pending_;
+  if (!heatmap.reason.empty()) {
+    ++coverage_.heatmap_skipped;
+    note("heatmap: " + heatmap.reason, &update);
+    return update;
+  }
+  evaluator_.addHeatmap(heatmap);
+  entries_.at(heatmap.stamp).record.heatmap = heatmap.counts;
+  update.heatmaps.push_back(heatmap);
+  return update;
+}
+
+void PassEvaluation::skip(const EvaluationTask& task) {
+  if (std::holds_alternative<PoseTask>(task.work)) {
+    --poses_pending_;
+    ++coverage_.pose_skipped;
+  } else {
+    --heatmaps_pending_;
+    ++coverage_.heatmap_skipped;
+  }
+}
+
 void PassEvaluation::evaluateFrame(Entry* entry, EvaluationUpdate* update) {
   if (!entry->lines || !entry->ground_truth || entry->record.state != FrameState::kWaiting) {
     return;
   }
   try {
-    FrameRecord record = evaluator_.addFrame(*entry->number, *entry->lines, *entry->ground_truth);
-    setState(entry, FrameState::kEvaluated);
-    entry->record = std::move(record);
+    scoreFrame(entry, update);
   } catch (const GroundTruthError& error) {
     setState(entry, FrameState::kBadGroundTruth);
     note(error.what(), update);
@@ -157,6 +254,30 @@ void PassEvaluation::evaluateFrame(Entry* entry, EvaluationUpdate* update) {
   }
   entry->lines.reset();
   update->frames.push_back(entry->record);
+}
+
+void PassEvaluation::scoreFrame(Entry* entry, EvaluationUpdate* update) {
+  const LineSet& lines = *entry->lines;
+  const LineSet& ground_truth = *entry->ground_truth;
+  FrameRecord record = evaluator_.addFrame(*entry->number, lines, ground_truth);
+  setState(entry, FrameState::kEvaluated);
+  entry->record = std::move(record);
+  entry->true_ids = ground_truth.lines.empty() || hasIds(ground_truth.lines);
+  if (wants(MetricFamily::kAssociation) || wants(MetricFamily::kTracks)) {
+    entry->carried_ids = evaluator_.carriedIds(lines, ground_truth);
+  }
+  if (wants(MetricFamily::kHeatmap)) {
+    ++heatmaps_pending_;
+    update->tasks.push_back(
+        {0, 0,
+         HeatmapTask{lines.stamp, {lines.width, lines.height}, lines.lines, ground_truth.lines}});
+  }
+  const Stamp stamp = lines.stamp;
+  for (auto pair = pending_detected_pairs_.begin(); pair != pending_detected_pairs_.end();) {
+    const bool concerned = pair->first.first == stamp || pair->first.second == stamp;
+    const bool settled = concerned && evaluateDetectedPair(pair->second, update);
+    pair = settled ? pending_detected_pairs_.erase(pair) : std::next(pair);
+  }
 }
 
 void PassEvaluation::evaluatePairsOf(Stamp stamp, EvaluationUpdate* update) {
@@ -173,6 +294,13 @@ bool PassEvaluation::evaluatePair(const MatchSet& matches, EvaluationUpdate* upd
   }
   if (matches.lines_source != ground_truth_source_) {
     ++pair_counts_.detected_lines;
+    if (!evaluateDetectedPair(matches, update)) {
+      pending_detected_pairs_.emplace(PairKey(matches.first_stamp, matches.stamp), matches);
+      if (pending_detected_pairs_.size() > options_.buffer) {
+        ++detected_pair_counts_.no_ground_truth;
+        pending_detected_pairs_.erase(pending_detected_pairs_.begin());
+      }
+    }
     return true;
   }
   const auto first = entries_.find(matches.first_stamp);
@@ -196,6 +324,40 @@ bool PassEvaluation::evaluatePair(const MatchSet& matches, EvaluationUpdate* upd
     note(error.what(), update);
   } catch (const Error& error) {
     ++pair_counts_.skipped;
+    note(error.what(), update);
+  }
+  return true;
+}
+
+bool PassEvaluation::evaluateDetectedPair(const MatchSet& matches, EvaluationUpdate* update) {
+  if (!wants(MetricFamily::kAssociation) && !wants(MetricFamily::kTracks)) {
+    return true;
+  }
+  const auto first = entries_.find(matches.first_stamp);
+  const auto second = entries_.find(matches.stamp);
+  if (second != entries_.end() && wants(MetricFamily::kTracks)) {
+    second->second.earlier_matches = matches;
+  }
+  if (!wants(MetricFamily::kAssociation)) {
+    return second != entries_.end();
+  }
+  if (first == entries_.end() || second == entries_.end() ||
+      first->second.record.state != FrameState::kEvaluated ||
+      second->second.record.state != FrameState::kEvaluated) {
+    return false;
+  }
+  const std::vector<std::int64_t>& first_ids = first->second.carried_ids;
+  const std::vector<std::int64_t>& second_ids = second->second.carried_ids;
+  if (!first->second.true_ids && !second->second.true_ids) {
+    ++detected_pair_counts_.without_ids;
+    return true;
+  }
+  try {
+    detected_pair_records_.push_back(evaluator_.addDetectedPair(matches, first_ids, second_ids));
+    ++detected_pair_counts_.evaluated;
+    update->detected_pairs.push_back(detected_pair_records_.back());
+  } catch (const Error& error) {
+    ++detected_pair_counts_.skipped;
     note(error.what(), update);
   }
   return true;
@@ -228,68 +390,6 @@ void PassEvaluation::note(const std::string& text, EvaluationUpdate* update) {
 bool PassEvaluation::betweenDetectedLines(const MatchSet& matches) const {
   return ground_truth_source_.empty() ? matches.lines_source == lines_source_
                                       : matches.lines_source != ground_truth_source_;
-}
-
-bool PassEvaluation::waiting() const {
-  std::optional<Stamp> newest;
-  for (const auto& [stamp, entry] : entries_) {
-    const bool has_lines = entry.record.lines.has_value();
-    if (!has_lines && entry.record.state == FrameState::kWaiting) {
-      return true;
-    }
-    const bool matched_lines = matches_lines_source_ == ground_truth_source_
-                                   ? entry.record.ground_truth.has_value()
-                                   : has_lines;
-    if (matched_lines) {
-      newest = stamp;
-    }
-  }
-  return newest_matches_ && newest && *newest_matches_ < *newest;
-}
-
-Report PassEvaluation::report(bool complete) const {
-  Report report;
-  report.protocol = options_.evaluation.vectorized.protocol;
-  report.complete = complete;
-  report.lines_source = lines_source_;
-  report.ground_truth_source = ground_truth_source_;
-  report.matches_source = matches_source_;
-  report.matches_lines_source = matches_lines_source_;
-  report.detection_frames = evaluator_.detection().frames();
-  report.scored = evaluator_.detection().scored();
-  report.detection = evaluator_.detectionEntries();
-  report.association = evaluator_.association().classification();
-  report.pairs = pair_counts_;
-  for (const auto& [key, matches] : pending_pairs_) {
-    ++(betweenDetectedLines(matches) ? report.pairs.detected_lines : report.pairs.no_ground_truth);
-  }
-  const bool on_ground_truth = newest_matches_ && !ground_truth_source_.empty() &&
-                               matches_lines_source_ == ground_truth_source_;
-  if (on_ground_truth) {
-    const auto step = static_cast<std::size_t>(options_.frame_step);
-    report.pairs_expected = ground_truth_seen_ > step ? ground_truth_seen_ - step : 0;
-  }
-  report.detector_timing = summarizeTimes(detector_times_);
-  report.associator_timing = summarizeTimes(associator_times_);
-  report.frames.reserve(entries_.size());
-  for (const auto& [stamp, entry] : entries_) {
-    FrameRecord record = entry.record;
-    if (complete && record.state == FrameState::kWaiting) {
-      record.state = stateByWhatIsMissing(record.lines.has_value());
-    }
-    report.coverage.add(record.state);
-    report.frames.push_back(std::move(record));
-  }
-  report.pair_records = pair_records_;
-  std::sort(report.pair_records.begin(), report.pair_records.end(),
-            [](const PairRecord& a, const PairRecord& b) {
-              return std::tie(a.stamp, a.first_stamp) < std::tie(b.stamp, b.first_stamp);
-            });
-  report.notes = notes_;
-  if (notes_left_out_ > 0) {
-    report.notes.push_back("and " + std::to_string(notes_left_out_) + " more of these");
-  }
-  return report;
 }
 
 }  // namespace evolin

@@ -1,4 +1,4 @@
-// The reasons and summaries that every form of the report shares, and writing it to disk.
+// Summaries that every form of the report shares, and writing it to disk.
 #include "evolin_ros/evaluation/report.h"
 
 #include <algorithm>
@@ -87,44 +87,17 @@ TimingSummary summarizeTimes(std::vector<double> times) {
   return summary;
 }
 
-std::string whyNoAssociation(const Report& report) {
-  if (report.pairs.evaluated > 0) {
-    return {};
-  }
-  const PairCounts& pairs = report.pairs;
-  if (pairs.detected_lines + pairs.no_ground_truth + pairs.bad_ground_truth + pairs.without_ids +
-          pairs.skipped ==
-      0) {
-    return "not evaluated: no matches were received";
-  }
-  if (report.pairs.detected_lines > 0) {
-    return "not evaluated: detected lines";
-  }
-  if (report.pairs.without_ids > 0) {
-    return "not evaluated: the ground truth has no ids, its true matches are unknown";
-  }
-  if (report.pairs.skipped + report.pairs.bad_ground_truth > 0) {
-    return "not evaluated: no usable pair, see the notes";
-  }
-  return "not evaluated: no ground truth for the matched frames";
-}
-
-std::string whyNoAveragePrecision(const Report& report, const DetectionEntry& entry) {
-  if (entry.average_precision) {
-    return {};
-  }
-  if (report.detection_frames == 0) {
-    return "no frame was evaluated";
-  }
-  if (entry.counts.predicted == 0) {
-    return "no lines were detected";
-  }
-  return report.scored ? "no lines are annotated" : "the lines carry no scores";
-}
-
 std::filesystem::path writeReport(const Report& report, const std::filesystem::path& folder) {
   writeFileAtomically(folder / "frames.csv", framesToCsv(report));
   writeFileAtomically(folder / "pairs.csv", pairsToCsv(report));
+  if (report.families.count(MetricFamily::kRepeatability) != 0) {
+    writeFileAtomically(folder / "repeatability.csv", repeatabilityToCsv(report));
+  }
+  if (report.families.count(MetricFamily::kPose) != 0) {
+    writeFileAtomically(folder / "poses.csv", posesToCsv(report));
+    writeFileAtomically(folder / "relative_motion_ground_truth.tum", motionsToTum(report, false));
+    writeFileAtomically(folder / "relative_motion_estimate.tum", motionsToTum(report, true));
+  }
   writeFileAtomically(folder / "summary.md", toMarkdown(report));
   const std::filesystem::path file = folder / "report.json";
   writeFileAtomically(file, toJson(report));

@@ -3,6 +3,7 @@
 
 #include "evolin_ros/base/version.h"
 #include "evolin_ros/evaluation/report.h"
+#include "report_families.h"
 
 namespace evolin {
 
@@ -32,7 +33,11 @@ Json coverageJson(const Report& report) {
                  {"dropped", coverage.dropped},
                  {"no_ground_truth", coverage.no_ground_truth},
                  {"bad_ground_truth", coverage.bad_ground_truth},
-                 {"skipped", coverage.skipped}};
+                 {"skipped", coverage.skipped},
+                 {"no_depth", coverage.no_depth},
+                 {"no_pose", coverage.no_pose},
+                 {"heatmap_skipped", coverage.heatmap_skipped},
+                 {"pose_skipped", coverage.pose_skipped}};
   if (report.input_images) {
     object["input_images"] = *report.input_images;
   } else {
@@ -64,6 +69,7 @@ Json detectionJson(const Report& report) {
           {"ground_truth", report.ground_truth_source},
           {"frames", report.detection_frames},
           {"scored", report.scored},
+          {"spatial_spread", report.detection_frames > 0 ? Json(report.spatial_spread) : Json(0)},
           {"entries", std::move(entries)}};
 }
 
@@ -114,13 +120,30 @@ std::string toJson(const Report& report) {
                {"protocol", toString(report.protocol)},
                {"complete", report.complete},
                {"pass", report.pass},
-               {"coverage", coverageJson(report)},
-               {"detection", detectionJson(report)},
-               {"association", associationJson(report)},
-               {"timing",
-                {{"detector", timingJson(report.detector_timing)},
-                 {"associator", timingJson(report.associator_timing)}}},
-               {"notes", report.notes}};
+               {"coverage", coverageJson(report)}};
+  const auto wants = [&report](MetricFamily family) { return report.families.count(family) != 0; };
+  if (wants(MetricFamily::kDetection)) {
+    root["detection"] = detectionJson(report);
+  }
+  if (wants(MetricFamily::kHeatmap)) {
+    root["heatmap"] = heatmapJson(report);
+  }
+  if (wants(MetricFamily::kRepeatability)) {
+    root["repeatability"] = repeatabilityJson(report);
+  }
+  if (wants(MetricFamily::kAssociation)) {
+    root["association"] = associationJson(report);
+    root["association_detected"] = detectedAssociationJson(report);
+  }
+  if (wants(MetricFamily::kPose)) {
+    root["pose"] = poseJson(report);
+  }
+  if (wants(MetricFamily::kTracks)) {
+    root["tracks"] = tracksJson(report);
+  }
+  root["timing"] = {{"detector", timingJson(report.detector_timing)},
+                    {"associator", timingJson(report.associator_timing)}};
+  root["notes"] = report.notes;
   Json provenance = Json::object();
   for (const auto& [key, text] : report.provenance) {
     // Texts come from outside; what is no JSON is kept as a string rather than lost.

@@ -1,29 +1,14 @@
 // The report as a Markdown summary and as CSV tables.
-#include <iomanip>
-#include <locale>
-#include <sstream>
-
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/base/version.h"
 #include "evolin_ros/evaluation/report.h"
+#include "report_families.h"
 
 namespace evolin {
 
 namespace {
 
-std::string percent(double ratio) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(1) << 100 * ratio;
-  return text.str();
-}
-
-std::string milliseconds(double seconds) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(2) << 1000 * seconds;
-  return text.str();
-}
+std::string milliseconds(double seconds) { return fixedText(1000 * seconds, 2); }
 
 std::string settingName(const VectorizedSetting& setting) {
   return toString(setting.distance) + " " + formatDouble(setting.threshold);
@@ -34,19 +19,16 @@ std::string csvName(const VectorizedSetting& setting) {
 }
 
 std::string ratios(const Classification& counts) {
-  return percent(counts.precision()) + " | " + percent(counts.recall()) + " | " +
-         percent(counts.fScore());
+  return percentText(counts.precision()) + " | " + percentText(counts.recall()) + " | " +
+         percentText(counts.fScore());
 }
 
 std::string timingRow(const std::string& name, const TimingSummary& timing) {
   if (timing.frames == 0) {
     return "| " + name + " | - | - | - | 0 |\n";
   }
-  std::ostringstream rate;
-  rate.imbue(std::locale::classic());
-  rate << std::fixed << std::setprecision(1) << timing.rate;
   return "| " + name + " | " + milliseconds(timing.median) + " | " + milliseconds(timing.p95) +
-         " | " + rate.str() + " | " + std::to_string(timing.frames) + " |\n";
+         " | " + fixedText(timing.rate, 1) + " | " + std::to_string(timing.frames) + " |\n";
 }
 
 std::string coverageLine(const Report& report) {
@@ -59,7 +41,11 @@ std::string coverageLine(const Report& report) {
       {"dropped from the full buffer", coverage.dropped},
       {"without ground truth", coverage.no_ground_truth},
       {"with bad ground truth", coverage.bad_ground_truth},
-      {"skipped", coverage.skipped}};
+      {"skipped", coverage.skipped},
+      {"without depth", coverage.no_depth},
+      {"without a pose", coverage.no_pose},
+      {"left out of the heatmap", coverage.heatmap_skipped},
+      {"pairs left out of relative pose", coverage.pose_skipped}};
   for (const auto& [name, count] : reasons) {
     if (count > 0) {
       text += "; " + std::to_string(count) + " " + name;
@@ -70,6 +56,23 @@ std::string coverageLine(const Report& report) {
             std::to_string(*report.input_images) + " images of the input were never heard of";
   }
   return text + ".";
+}
+
+std::string detectionSection(const Report& report) {
+  std::string text = "\n## Detection\n\n";
+  if (report.detection_frames == 0) {
+    return text + "not evaluated: no frame had both lines and ground truth\n";
+  }
+  text +=
+      "| distance | precision | recall | F | average precision |\n"
+      "| --- | ---: | ---: | ---: | ---: |\n";
+  for (const DetectionEntry& entry : report.detection) {
+    text += "| " + settingName(entry.setting) + " | " + ratios(entry.counts) + " | " +
+            (entry.average_precision ? percentText(*entry.average_precision)
+                                     : whyNoAveragePrecision(report, entry)) +
+            " |\n";
+  }
+  return text + "\nLines touch " + percentText(report.spatial_spread) + " of the image's cells.\n";
 }
 
 std::string associationSection(const Report& report) {
@@ -97,21 +100,26 @@ std::string toMarkdown(const Report& report) {
                      programVersion() + ", protocol `" + toString(report.protocol) + "`, pass " +
                      std::to_string(report.pass) +
                      (report.complete ? "" : ", a snapshot before the end of the input") +
-                     ". Ratios in percent.\n\n" + coverageLine(report) + "\n\n## Detection\n\n";
-  if (report.detection_frames == 0) {
-    text += "not evaluated: no frame had both lines and ground truth\n";
-  } else {
-    text +=
-        "| distance | precision | recall | F | average precision |\n"
-        "| --- | ---: | ---: | ---: | ---: |\n";
-    for (const DetectionEntry& entry : report.detection) {
-      text += "| " + settingName(entry.setting) + " | " + ratios(entry.counts) + " | " +
-              (entry.average_precision ? percent(*entry.average_precision)
-                                       : whyNoAveragePrecision(report, entry)) +
-              " |\n";
-    }
+                     ". Ratios in percent.\n\n" + coverageLine(report) + "\n";
+  const auto wants = [&report](MetricFamily family) { return report.families.count(family) != 0; };
+  if (wants(MetricFamily::kDetection)) {
+    text += detectionSection(report);
   }
-  text += associationSection(report);
+  if (wants(MetricFamily::kHeatmap)) {
+    text += heatmapSection(report);
+  }
+  if (wants(MetricFamily::kRepeatability)) {
+    text += repeatabilitySection(report);
+  }
+  if (wants(MetricFamily::kAssociation)) {
+    text += associationSection(report) + detectedAssociationSection(report);
+  }
+  if (wants(MetricFamily::kPose)) {
+    text += poseSection(report);
+  }
+  if (wants(MetricFamily::kTracks)) {
+    text += tracksSection(report);
+  }
   text +=
       "\n## Time\n\n| | median ms | 95 % ms | frames/s | frames |\n"
       "| --- | ---: | ---: | ---: | ---: |\n";
@@ -127,11 +135,20 @@ std::string toMarkdown(const Report& report) {
 }
 
 std::string framesToCsv(const Report& report) {
-  std::string text = "stamp,state,lines,ground_truth,detector_ms";
+  const bool heatmap = report.families.count(MetricFamily::kHeatmap) != 0;
+  std::string text = "stamp,state,lines,ground_truth,detector_ms,spatial_spread";
   for (const DetectionEntry& entry : report.detection) {
     const std::string name = csvName(entry.setting);
     for (const char* figure : {"_true_positives", "_predicted", "_precision", "_recall", "_f_score",
                                "_average_precision"}) {
+      text += "," + name + figure;
+    }
+  }
+  for (std::size_t i = 0; heatmap && i < report.heatmap.counts.size(); ++i) {
+    const std::vector<double>& thresholds = report.heatmap.score_thresholds;
+    const std::string name =
+        "heatmap" + (thresholds.empty() ? "" : "_" + formatDouble(thresholds[i]));
+    for (const char* figure : {"_precision", "_recall", "_f_score"}) {
       text += "," + name + figure;
     }
   }
@@ -140,7 +157,8 @@ std::string framesToCsv(const Report& report) {
     text += formatStamp(frame.stamp) + "," + toString(frame.state) + "," +
             (frame.lines ? std::to_string(*frame.lines) : "") + "," +
             (frame.ground_truth ? std::to_string(*frame.ground_truth) : "") + "," +
-            (frame.processing_time > 0 ? milliseconds(frame.processing_time) : "");
+            (frame.processing_time > 0 ? milliseconds(frame.processing_time) : "") + "," +
+            (frame.entries.empty() ? "" : formatDouble(frame.spatial_spread));
     for (std::size_t i = 0; i < report.detection.size(); ++i) {
       if (i >= frame.entries.size()) {
         text += ",,,,,,";
@@ -152,6 +170,15 @@ std::string framesToCsv(const Report& report) {
               formatDouble(entry.counts.precision()) + "," + formatDouble(entry.counts.recall()) +
               "," + formatDouble(entry.counts.fScore()) + "," +
               (entry.average_precision ? formatDouble(*entry.average_precision) : "");
+    }
+    for (std::size_t i = 0; heatmap && i < report.heatmap.counts.size(); ++i) {
+      if (frame.heatmap.empty()) {
+        text += ",,,";
+        continue;
+      }
+      const Classification& counts = frame.heatmap[i];
+      text += "," + formatDouble(counts.precision()) + "," + formatDouble(counts.recall()) + "," +
+              formatDouble(counts.fScore());
     }
     text += "\n";
   }

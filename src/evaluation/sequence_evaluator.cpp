@@ -25,7 +25,11 @@ std::vector<DetectionEntry> entriesOf(const VectorizedMetrics& metrics) {
 }  // namespace
 
 SequenceEvaluator::SequenceEvaluator(EvaluationOptions options)
-    : options_(std::move(options)), detection_(options_.vectorized) {}
+    : options_(std::move(options)), detection_(options_.vectorized), pose_(options_.pose_errors) {
+  const HeatmapMetrics heatmap(options_.heatmap);
+  heatmap_thresholds_ = heatmap.scoreThresholds();
+  heatmap_ = heatmap.classifications();
+}
 
 FrameRecord SequenceEvaluator::addFrame(std::uint32_t number, const LineSet& lines,
                                         const LineSet& ground_truth) {
@@ -48,6 +52,7 @@ FrameRecord SequenceEvaluator::addFrame(std::uint32_t number, const LineSet& lin
   }
 
   FrameRecord record;
+  record.spatial_spread = spread_.addFrame(name, {lines.width, lines.height}, lines.lines);
   record.stamp = lines.stamp;
   record.state = FrameState::kEvaluated;
   record.lines = lines.lines.size();
@@ -81,9 +86,33 @@ std::vector<DetectionEntry> SequenceEvaluator::detectionEntries() const {
   return entriesOf(detection_);
 }
 
-void SequenceEvaluator::reset() {
-  detection_.reset();
-  association_.reset();
+std::vector<std::int64_t> SequenceEvaluator::carriedIds(const LineSet& lines,
+                                                        const LineSet& ground_truth) const {
+  return carryOverIds(formatStamp(lines.stamp), {lines.width, lines.height}, lines.lines,
+                      ground_truth.lines, options_.carry_over_gate);
+}
+
+DetectedPairRecord SequenceEvaluator::addDetectedPair(const MatchSet& matches,
+                                                      const std::vector<std::int64_t>& first_ids,
+                                                      const std::vector<std::int64_t>& second_ids) {
+  DetectedPairRecord record;
+  record.first_stamp = matches.first_stamp;
+  record.stamp = matches.stamp;
+  try {
+    record.counts =
+        detected_association_.addPair(toIndexPairs(matches.matches), first_ids, second_ids);
+  } catch (const Error& error) {
+    throw Error("matches of " + formatStamp(matches.first_stamp) + " and " +
+                formatStamp(matches.stamp) + ": " + error.what());
+  }
+  return record;
+}
+
+void SequenceEvaluator::addHeatmap(const HeatmapRecord& record) {
+  for (std::size_t i = 0; i < heatmap_.size(); ++i) {
+    heatmap_[i] += record.counts.at(i);
+  }
+  ++heatmap_frames_;
 }
 
 }  // namespace evolin

@@ -56,7 +56,10 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* u
   if (*pass > newest_) {
     newest_ = *pass;
     update->new_pass = true;
-    passes_.emplace(newest_, PassEvaluation(options_));
+    const auto opened = passes_.emplace(newest_, PassEvaluation(options_)).first;
+    if (camera_) {
+      update->append(marked(opened->second.setCamera(*camera_), newest_));
+    }
     while (passes_.begin()->first < newest_ - 1) {
       released_ = passes_.begin()->second.report(true);
       released_->pass = passes_.begin()->first;
@@ -67,36 +70,74 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* u
   return found == passes_.end() ? nullptr : &found->second;
 }
 
-EvaluationUpdate StreamEvaluator::addImage(Stamp stamp) {
-  EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(kImage, {stamp, 0}, &update)) {
-    update.append(pass->addImage(stamp));
+EvaluationUpdate StreamEvaluator::marked(EvaluationUpdate update, int pass) const {
+  for (EvaluationTask& task : update.tasks) {
+    task.generation = generation_;
+    task.pass = pass;
   }
   return update;
+}
+
+template <class Add>
+EvaluationUpdate StreamEvaluator::add(Input input, Key key, const Add& add) {
+  EvaluationUpdate update;
+  if (PassEvaluation* pass = enter(input, key, &update)) {
+    update.append(marked(add(pass), followers_[input].pass));
+  }
+  return update;
+}
+
+EvaluationUpdate StreamEvaluator::addImage(Stamp stamp) {
+  return add(kImage, {stamp, 0}, [&](PassEvaluation* pass) { return pass->addImage(stamp); });
 }
 
 EvaluationUpdate StreamEvaluator::addLines(LineSet lines) {
-  EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(kLines, {lines.stamp, 0}, &update)) {
-    update.append(pass->addLines(std::move(lines)));
-  }
-  return update;
+  return add(kLines, {lines.stamp, 0},
+             [&](PassEvaluation* pass) { return pass->addLines(std::move(lines)); });
 }
 
 EvaluationUpdate StreamEvaluator::addGroundTruth(LineSet ground_truth) {
+  return add(kGroundTruth, {ground_truth.stamp, 0},
+             [&](PassEvaluation* pass) { return pass->addGroundTruth(std::move(ground_truth)); });
+}
+
+EvaluationUpdate StreamEvaluator::addMatches(MatchSet matches) {
+  return add(kMatches, {matches.stamp, matches.first_stamp},
+             [&](PassEvaluation* pass) { return pass->addMatches(std::move(matches)); });
+}
+
+EvaluationUpdate StreamEvaluator::setCamera(const Camera& camera) {
+  camera_ = camera;
   EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(kGroundTruth, {ground_truth.stamp, 0}, &update)) {
-    update.append(pass->addGroundTruth(std::move(ground_truth)));
+  for (auto& [number, pass] : passes_) {
+    update.append(marked(pass.setCamera(camera), number));
   }
   return update;
 }
 
-EvaluationUpdate StreamEvaluator::addMatches(MatchSet matches) {
-  EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(kMatches, {matches.stamp, matches.first_stamp}, &update)) {
-    update.append(pass->addMatches(std::move(matches)));
+EvaluationUpdate StreamEvaluator::addDepth(Stamp stamp, DepthMap depth) {
+  return add(kDepth, {stamp, 0},
+             [&](PassEvaluation* pass) { return pass->addDepth(stamp, std::move(depth)); });
+}
+
+EvaluationUpdate StreamEvaluator::addPose(const StampedPose& pose) {
+  return add(kPose, {pose.stamp, 0}, [&](PassEvaluation* to) { return to->addPose(pose); });
+}
+
+PassEvaluation* StreamEvaluator::passOf(std::uint64_t generation, int pass) {
+  const auto found = generation == generation_ ? passes_.find(pass) : passes_.end();
+  return found == passes_.end() ? nullptr : &found->second;
+}
+
+EvaluationUpdate StreamEvaluator::addResult(const EvaluationResult& result) {
+  PassEvaluation* pass = passOf(result.generation, result.pass);
+  return pass == nullptr ? EvaluationUpdate() : pass->addResult(result);
+}
+
+void StreamEvaluator::skip(const EvaluationTask& task) {
+  if (PassEvaluation* pass = passOf(task.generation, task.pass)) {
+    pass->skip(task);
   }
-  return update;
 }
 
 Report StreamEvaluator::report(bool complete) const {
@@ -121,6 +162,14 @@ std::optional<Report> StreamEvaluator::takeReleasedReport() {
 
 bool StreamEvaluator::waiting() const { return current().waiting(); }
 
-void StreamEvaluator::reset() { *this = StreamEvaluator(options_); }
+void StreamEvaluator::reset() {
+  const std::uint64_t generation = generation_ + 1;
+  const std::optional<Camera> camera = camera_;
+  *this = StreamEvaluator(options_);
+  generation_ = generation;
+  if (camera) {
+    setCamera(*camera);
+  }
+}
 
 }  // namespace evolin

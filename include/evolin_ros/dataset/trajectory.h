@@ -36,6 +36,10 @@ class Trajectory {
 
   const std::vector<StampedPose>& poses() const { return poses_; }
 
+  /// Puts a pose in its place by time, at little cost where it is the newest. False, and nothing is
+  /// added, when there is one of the same stamp.
+  bool add(const StampedPose& pose);
+
   /// The pose at `stamp`: the nearest one within kSameTime as it is, else interpolated between the
   /// two neighbours. None outside the trajectory's range, or when either neighbour is more than
   /// kMaxGap away.

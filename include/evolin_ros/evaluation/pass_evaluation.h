@@ -11,13 +11,17 @@
 #include <vector>
 
 #include "evolin_ros/evaluation/inputs.h"
+#include "evolin_ros/evaluation/motion_evaluation.h"
 #include "evolin_ros/evaluation/report.h"
 #include "evolin_ros/evaluation/sequence_evaluator.h"
 
 namespace evolin {
 
 struct PassOptions {
+  MetricFamilies families = {allMetricFamilies().begin(), allMetricFamilies().end()};
   EvaluationOptions evaluation;
+  MotionOptions motion;  ///< `buffer` and the two families wanted are those of this struct
+  std::vector<double> auc_thresholds = {1, 3, 5, 10};  ///< of relative pose, degrees
   /// Frames whose lines are kept while a part is missing, and for the pairs to come.
   std::size_t buffer = 1000;
   /// Frames between the two of a pair; only to say how many pairs were to be expected.
@@ -28,7 +32,12 @@ struct PassOptions {
 struct EvaluationUpdate {
   std::vector<FrameRecord> frames;
   std::vector<PairRecord> pairs;
-  std::vector<std::string> notes;  ///< new ones, for the log
+  std::vector<DetectedPairRecord> detected_pairs;
+  std::vector<RepeatabilityRecord> repeatability;
+  std::vector<HeatmapRecord> heatmaps;
+  std::vector<PoseRecord> poses;
+  std::vector<EvaluationTask> tasks;  ///< to be run, and their results added or the task skipped
+  std::vector<std::string> notes;     ///< new ones, for the log
   bool new_pass = false;
 
   void append(EvaluationUpdate other);
@@ -45,17 +54,31 @@ class PassEvaluation {
   EvaluationUpdate addLines(LineSet lines);
   EvaluationUpdate addGroundTruth(LineSet ground_truth);
   EvaluationUpdate addMatches(MatchSet matches);
+  EvaluationUpdate setCamera(const Camera& camera);
+  EvaluationUpdate addDepth(Stamp stamp, DepthMap depth);
+  EvaluationUpdate addPose(const StampedPose& pose);
+
+  /// The result of a task of this pass.
+  EvaluationUpdate addResult(const EvaluationResult& result);
+
+  /// A task of this pass will not be run.
+  void skip(const EvaluationTask& task);
 
   /// The figures so far. With `complete` nothing is waited for any more, and waiting frames are
   /// counted by what they lack.
   Report report(bool complete) const;
 
   /// Frames by state, as report(false) has them, without building a report.
-  const CoverageCounts& coverage() const { return coverage_; }
+  CoverageCounts coverage() const;
 
-  /// Whether an image or ground truth is there whose lines have not come, or matches are still due
-  /// for the newest frames.
+  /// Whether an image or ground truth is there whose lines have not come, matches are still due
+  /// for the newest frames, or tasks are under way.
   bool waiting() const;
+
+  const MotionEvaluation& motion() const { return motion_; }
+
+  /// Follows all lines from the beginning: time grows with what was received.
+  TrackReport tracks() const;
 
   const SequenceEvaluator& evaluator() const { return evaluator_; }
 
@@ -66,6 +89,11 @@ class PassEvaluation {
     std::optional<LineSet> lines;         ///< until evaluated or released
     std::optional<LineSet> ground_truth;  ///< until released
     bool released = false;
+    std::size_t line_count = 0;               ///< detected
+    std::vector<std::int64_t> track_ids;      ///< of the detected lines; empty: none has one
+    bool true_ids = false;                    ///< its ground truth has ids, or has no lines
+    std::vector<std::int64_t> carried_ids;    ///< of ground truth, for the detected lines
+    std::optional<MatchSet> earlier_matches;  ///< of detected lines, with an earlier frame
     FrameRecord record;
   };
   using PairKey = std::pair<Stamp, Stamp>;
@@ -77,7 +105,16 @@ class PassEvaluation {
   void evaluatePairsOf(Stamp stamp, EvaluationUpdate* update);
   /// True when the pair is settled one way or the other.
   bool evaluatePair(const MatchSet& matches, EvaluationUpdate* update);
+  bool evaluateDetectedPair(const MatchSet& matches, EvaluationUpdate* update);
+  void scoreFrame(Entry* entry, EvaluationUpdate* update);
+  void take(MotionUpdate motion, EvaluationUpdate* update);
+  bool wants(MetricFamily family) const { return options_.families.count(family) != 0; }
   void hold(Stamp stamp);
+  static FrameState stateByWhatIsMissing(bool has_lines);
+  void fillDetectedAssociation(Report* report) const;
+  void fillHeatmap(Report* report) const;
+  void fillMotion(bool complete, Report* report) const;
+  void fillRepeatability(const MotionEvaluation& motion, Report* report) const;
   void note(const std::string& text, EvaluationUpdate* update);
   bool betweenDetectedLines(const MatchSet& matches) const;
 
@@ -86,7 +123,15 @@ class PassEvaluation {
   std::map<Stamp, Entry> entries_;
   std::set<Stamp> held_;  ///< entries that hold lines or ground truth
   std::map<PairKey, MatchSet> pending_pairs_;
+  std::map<PairKey, MatchSet> pending_detected_pairs_;
   std::vector<PairRecord> pair_records_;
+  std::vector<DetectedPairRecord> detected_pair_records_;
+  DetectedPairCounts detected_pair_counts_;
+  MotionEvaluation motion_;
+  std::vector<RepeatabilityRecord> repeatability_records_;
+  std::vector<PoseRecord> pose_records_;
+  std::size_t heatmaps_pending_ = 0;
+  std::size_t poses_pending_ = 0;
   PairCounts pair_counts_;
   CoverageCounts coverage_;
   std::vector<double> detector_times_;

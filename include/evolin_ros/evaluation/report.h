@@ -9,7 +9,12 @@
 #include <vector>
 
 #include "evolin_ros/base/stamp.h"
+#include "evolin_ros/evaluation/metric_family.h"
+#include "evolin_ros/evaluation/motion_evaluation.h"
+#include "evolin_ros/evaluation/task.h"
 #include "evolin_ros/metrics/classification.h"
+#include "evolin_ros/metrics/detected_association.h"
+#include "evolin_ros/metrics/pose_error.h"
 #include "evolin_ros/metrics/protocol.h"
 #include "evolin_ros/metrics/vectorized.h"
 
@@ -40,6 +45,12 @@ struct CoverageCounts {
   std::size_t bad_ground_truth = 0;
   std::size_t skipped = 0;
 
+  // Besides: a frame may be evaluated and lack what one family needs.
+  std::size_t no_depth = 0;         ///< frames with lines to which no depth image belongs
+  std::size_t no_pose = 0;          ///< frames with lines without a camera pose
+  std::size_t heatmap_skipped = 0;  ///< frames left out of the heatmap for want of time
+  std::size_t pose_skipped = 0;     ///< pairs left out of relative pose for want of time
+
   void add(FrameState state);
   void remove(FrameState state);
 
@@ -62,6 +73,8 @@ struct FrameRecord {
   std::optional<std::size_t> ground_truth;  ///< annotated
   double processing_time = 0;               ///< of the detector, s; 0: not measured
   std::vector<DetectionEntry> entries;
+  double spatial_spread = 0;            ///< share of the image's cells that lines touch
+  std::vector<Classification> heatmap;  ///< by falling score threshold; empty: not (yet) measured
 };
 
 /// One pair's own figures.
@@ -70,6 +83,21 @@ struct PairRecord {
   Stamp stamp = 0;
   double processing_time = 0;  ///< of the associator, s; 0: not measured
   Classification counts;
+};
+
+/// The same of a pair whose matches are between detected lines.
+struct DetectedPairRecord {
+  Stamp first_stamp = 0;
+  Stamp stamp = 0;
+  DetectedAssociation counts;
+};
+
+/// Pairs of frames by what became of their matches between detected lines.
+struct DetectedPairCounts {
+  std::size_t evaluated = 0;
+  std::size_t no_ground_truth = 0;  ///< of one of the two frames (so far)
+  std::size_t without_ids = 0;      ///< no annotated line of the two frames has an id
+  std::size_t skipped = 0;          ///< unusable; a note says why
 };
 
 /// Pairs of frames by what became of their matches.
@@ -95,7 +123,56 @@ struct TimingSummary {
 /// `times` in seconds, any order; the percentile is linear between neighbours.
 TimingSummary summarizeTimes(std::vector<double> times);
 
+struct HeatmapReport {
+  std::vector<double> score_thresholds;  ///< falling; empty: all lines, one entry
+  std::vector<Classification> counts;    ///< one a threshold
+  std::size_t frames = 0;
+  std::size_t pending = 0;  ///< still being measured
+};
+
+struct RepeatabilityRow {
+  RepeatabilitySetting setting;
+  std::size_t pairs = 0;
+  std::optional<RepeatabilityFigures> figures;
+};
+
+struct RepeatabilityReport {
+  MotionCounts counts;
+  bool camera = false;  ///< camera_info was there; the same for depth images and poses
+  bool depth = false;
+  bool poses = false;
+  std::vector<RepeatabilityRow> rows;
+  OneToOneRepeatability one_to_one;  ///< of the first frame step, as the next
+  BestLocalization best_localization;
+  std::size_t best_count = 0;  ///< N of the N best
+  std::vector<RepeatabilityRecord> records;
+};
+
+struct PoseReport {
+  PoseMethodOptions method;
+  int frame_step = 1;
+  std::vector<double> auc_thresholds;  ///< degrees
+  PoseErrorMetrics errors;
+  std::size_t pending = 0;  ///< still being estimated
+  std::vector<PoseRecord> records;
+};
+
+/// How long lines are followed; see TrackMetrics.
+struct TrackReport {
+  std::string reason;  ///< why there are none; "" when there are
+  bool from_matches = false;
+  std::size_t frames = 0;
+  std::uint64_t tracks = 0;
+  std::optional<double> mean_length;
+  std::optional<double> median_length;
+  std::uint32_t longest = 0;
+  std::uint64_t observations = 0;
+  std::uint64_t identity_switches = 0;
+  std::uint64_t drifts = 0;
+};
+
 struct Report {
+  MetricFamilies families;
   Protocol protocol = Protocol::kEvolin;
   bool complete = false;  ///< the input came to its end; false: a snapshot on the way
   int pass = 1;           ///< a jump back in time starts the next
@@ -114,10 +191,18 @@ struct Report {
   std::optional<std::size_t>
       pairs_expected;  ///< from the frames with ground truth and the frame step
   Classification association;
+  DetectedPairCounts detected_pairs;
+  DetectedAssociation detected_association;
+  double spatial_spread = 0;  ///< mean over the frames of the detection
+  HeatmapReport heatmap;
+  RepeatabilityReport repeatability;
+  PoseReport pose;
+  TrackReport tracks;
   TimingSummary detector_timing;
   TimingSummary associator_timing;
-  std::vector<FrameRecord> frames;       ///< every frame seen, by stamp
-  std::vector<PairRecord> pair_records;  ///< every pair evaluated, by stamp
+  std::vector<FrameRecord> frames;                        ///< every frame seen, by stamp
+  std::vector<PairRecord> pair_records;                   ///< every pair evaluated, by stamp
+  std::vector<DetectedPairRecord> detected_pair_records;  ///< by stamp
   std::vector<std::string>
       notes;  ///< what the reader must know: bad ground truth, unusable messages
   /// How the figures came about: JSON texts by key ("parameters", "input", "machine"), embedded as
@@ -131,6 +216,12 @@ std::string whyNoAssociation(const Report& report);
 /// Why an entry has no average precision; "" when it has one.
 std::string whyNoAveragePrecision(const Report& report, const DetectionEntry& entry);
 
+/// Why there are no figures of association of detected lines; "" when there are.
+std::string whyNoDetectedAssociation(const Report& report);
+std::string whyNoHeatmap(const Report& report);
+std::string whyNoRepeatability(const Report& report, const RepeatabilityRow& row);
+std::string whyNoPose(const Report& report);
+
 /// Strict JSON; what has no value is null with a `reason` beside it.
 std::string toJson(const Report& report);
 
@@ -141,9 +232,17 @@ std::string toMarkdown(const Report& report);
 std::string framesToCsv(const Report& report);
 std::string pairsToCsv(const Report& report);
 
-/// report.json, summary.md, frames.csv and pairs.csv in `folder` (made if missing), each there as a
-/// whole or not at all, report.json last. Returns the path of report.json; throws Error naming the
-/// file.
+/// One row a pair of frames and setting.
+std::string repeatabilityToCsv(const Report& report);
+std::string posesToCsv(const Report& report);
+
+/// Relative motion of each pair with an estimate as rows "stamp tx ty tz qx qy qz qw" (TUM's form):
+/// the pose of the second camera in the first one's frame at the stamp of the second image, metres.
+std::string motionsToTum(const Report& report, bool estimated);
+
+/// report.json, summary.md and the tables and trajectories of the families asked for in `folder`
+/// (made if missing), each there as a whole or not at all, report.json last. Returns the path of
+/// report.json; throws Error naming the file.
 std::filesystem::path writeReport(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace evolin

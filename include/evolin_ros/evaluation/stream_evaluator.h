@@ -27,6 +27,18 @@ class StreamEvaluator {
   EvaluationUpdate addGroundTruth(LineSet ground_truth);
   EvaluationUpdate addMatches(MatchSet matches);
 
+  /// Of all passes: a camera does not change with time's jumps.
+  EvaluationUpdate setCamera(const Camera& camera);
+  EvaluationUpdate addDepth(Stamp stamp, DepthMap depth);
+  EvaluationUpdate addPose(const StampedPose& pose);
+
+  /// The result of a task that an update gave out; one of a pass that is over, or of before a
+  /// reset, is forgotten.
+  EvaluationUpdate addResult(const EvaluationResult& result);
+
+  /// A task that an update gave out will not be run.
+  void skip(const EvaluationTask& task);
+
   /// Of the newest pass; passes count from 1.
   Report report(bool complete) const;
 
@@ -48,7 +60,7 @@ class StreamEvaluator {
   void reset();
 
  private:
-  enum Input { kImage, kLines, kGroundTruth, kMatches, kInputs };
+  enum Input { kImage, kLines, kGroundTruth, kMatches, kDepth, kPose, kInputs };
   using Key = std::pair<Stamp, Stamp>;  ///< second stamp, first stamp (0 where there is one only)
   struct Follower {
     int pass = 0;  ///< 0: nothing heard
@@ -61,6 +73,11 @@ class StreamEvaluator {
   /// Whether a stamp before everything that the input has had belongs to the same pass all the
   /// same.
   bool startedOutOfOrder(Input input, Stamp stamp) const;
+  /// Fills in where the update's tasks come from.
+  EvaluationUpdate marked(EvaluationUpdate update, int pass) const;
+  template <class Add>
+  EvaluationUpdate add(Input input, Key key, const Add& add);
+  PassEvaluation* passOf(std::uint64_t generation, int pass);
   PassEvaluation* enter(Input input, Key key, EvaluationUpdate* update);
 
   PassOptions options_;
@@ -68,6 +85,8 @@ class StreamEvaluator {
   std::map<int, PassEvaluation> passes_;
   std::optional<Report> released_;
   int newest_ = 1;
+  std::optional<Camera> camera_;
+  std::uint64_t generation_ = 0;
 };
 
 }  // namespace evolin

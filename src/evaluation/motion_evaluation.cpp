@@ -1,0 +1,366 @@
+// Frames wait for their depth and pose, are scored in order of time, and leave when nothing can
+// need them any more.
+#include "evolin_ros/evaluation/motion_evaluation.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "evolin_ros/base/error.h"
+#include "evolin_ros/metrics/association.h"
+
+namespace evolin {
+
+namespace {
+
+/// Results that a front-end of several threads may give out before an earlier one.
+constexpr std::size_t kMostSwapped = 8;
+
+bool equal(const Camera& a, const Camera& b) {
+  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy && a.width == b.width &&
+         a.height == b.height;
+}
+
+}  // namespace
+
+MotionEvaluation::MotionEvaluation(MotionOptions options)
+    : options_(std::move(options)),
+      method_(options_.pose_method),
+      repeatability_(options_.repeatabilities),
+      one_to_one_(options_.one_to_one),
+      best_localization_(options_.best_localization),
+      depth_(options_.max_time_difference, options_.depth_buffer) {}
+
+MotionUpdate MotionEvaluation::setCamera(const Camera& camera) {
+  MotionUpdate update;
+  if (!camera_) {
+    camera_ = camera;
+    resolveAll(false, &update);
+    advance(false, &update);
+  } else if (!camera_differs_ && !equal(*camera_, camera)) {
+    camera_differs_ = true;
+    update.notes.push_back(
+        "camera_info changed within the sequence; the intrinsics of its first message are used for "
+        "depth and poses");
+  }
+  return update;
+}
+
+MotionUpdate MotionEvaluation::addImage(Stamp stamp) {
+  MotionUpdate update;
+  nodeAt(stamp, &update);
+  return update;
+}
+
+MotionUpdate MotionEvaluation::addLines(const LineSet& lines) {
+  MotionUpdate update;
+  lines_source_ = lines.source;
+  if (settled_ && lines.stamp <= *settled_) {
+    ++counts_.late;
+  }
+  if (Node* node = nodeAt(lines.stamp, &update)) {
+    node->detected.state = State::kWaiting;
+    node->detected.lines = lines.lines;
+    unresolved_.insert(lines.stamp);
+    resolve(lines.stamp, false, &update);
+    advance(false, &update);
+  }
+  return update;
+}
+
+MotionUpdate MotionEvaluation::addGroundTruth(const LineSet& ground_truth) {
+  MotionUpdate update;
+  ground_truth_source_ = ground_truth.source;
+  if (Node* node = nodeAt(ground_truth.stamp, &update)) {
+    if (options_.pose) {
+      node->truth.state = State::kWaiting;
+      node->truth.lines = ground_truth.lines;
+      unresolved_.insert(ground_truth.stamp);
+      resolve(ground_truth.stamp, false, &update);
+    }
+    advance(false, &update);
+  }
+  return update;
+}
+
+MotionUpdate MotionEvaluation::addDepth(Stamp stamp, DepthMap depth) {
+  MotionUpdate update;
+  depth_.add(stamp, std::move(depth));
+  resolveAll(false, &update);
+  advance(false, &update);
+  return update;
+}
+
+MotionUpdate MotionEvaluation::addPose(const StampedPose& pose) {
+  MotionUpdate update;
+  if (trajectory_.add(pose)) {
+    resolveAll(false, &update);
+    advance(false, &update);
+  }
+  return update;
+}
+
+MotionUpdate MotionEvaluation::addMatches(const MatchSet& matches) {
+  MotionUpdate update;
+  if (!options_.pose) {
+    return update;
+  }
+  const PairKey key(matches.first_stamp, matches.stamp);
+  if (!tryPair(key, matches, false, &update)) {
+    pending_.insert_or_assign(key, matches);
+    if (pending_.size() > options_.buffer) {
+      tryPair(pending_.begin()->first, pending_.begin()->second, true, &update);
+      pending_.erase(pending_.begin());
+    }
+  }
+  return update;
+}
+
+MotionUpdate MotionEvaluation::finish() {
+  MotionUpdate update;
+  resolveAll(true, &update);
+  advance(true, &update);
+  for (const auto& [key, matches] : pending_) {
+    tryPair(key, matches, true, &update);
+  }
+  pending_.clear();
+  return update;
+}
+
+MotionEvaluation::Node* MotionEvaluation::nodeAt(Stamp stamp, MotionUpdate* update) {
+  if (!wanted()) {
+    return nullptr;
+  }
+  const auto found = nodes_.find(stamp);
+  if (found != nodes_.end()) {
+    return &found->second;
+  }
+  // One that is older than everything kept would be the first to leave.
+  if (nodes_.size() >= options_.buffer && stamp < nodes_.begin()->first) {
+    return nullptr;
+  }
+  Node* node = &nodes_[stamp];
+  limitNodes(update);
+  return node;
+}
+
+void MotionEvaluation::limitNodes(MotionUpdate* update) {
+  if (nodes_.size() <= options_.buffer) {
+    return;
+  }
+  const auto oldest = nodes_.begin();
+  const Stamp stamp = oldest->first;
+  if (!settled_ || stamp > *settled_) {
+    resolve(stamp, true, update);
+    settle(stamp, &oldest->second, update);
+  }
+  unresolved_.erase(stamp);
+  nodes_.erase(oldest);
+}
+
+void MotionEvaluation::resolveAll(bool complete, MotionUpdate* update) {
+  const std::vector<Stamp> stamps(unresolved_.begin(), unresolved_.end());
+  for (const Stamp stamp : stamps) {
+    resolve(stamp, complete, update);
+  }
+}
+
+void MotionEvaluation::resolve(Stamp stamp, bool complete, MotionUpdate* update) {
+  Node& node = nodes_.at(stamp);
+  bool changed = false;
+  for (const bool detected : {true, false}) {
+    Lifting& lifting = detected ? node.detected : node.truth;
+    if (lifting.state == State::kWaiting) {
+      lifting.state = lift(stamp, complete, detected, &lifting, &node, update);
+      changed = changed || lifting.state != State::kWaiting;
+    }
+  }
+  if (node.pose_state == State::kWaiting) {
+    const std::vector<StampedPose>& poses = trajectory_.poses();
+    if (const std::optional<Pose> pose = trajectory_.at(stamp)) {
+      node.pose = *pose;
+      node.pose_state = State::kReady;
+    } else if (complete || (!poses.empty() && poses.back().stamp >= stamp)) {
+      node.pose_state = State::kNever;
+    }
+    changed = changed || node.pose_state != State::kWaiting;
+  }
+  if (node.detected.state != State::kWaiting && node.truth.state != State::kWaiting &&
+      node.pose_state != State::kWaiting) {
+    unresolved_.erase(stamp);
+  }
+  if (changed) {
+    tryPairs(stamp, update);
+  }
+}
+
+MotionEvaluation::State MotionEvaluation::lift(Stamp stamp, bool complete, bool detected,
+                                               Lifting* lifting, Node* node, MotionUpdate* update) {
+  const DepthMap* depth = nullptr;
+  const Lookup lookup = depth_.find(stamp, complete, &depth);
+  if (lookup == Lookup::kNotYet || (!camera_ && !complete)) {
+    return State::kWaiting;
+  }
+  State state = State::kNever;
+  if (lookup == Lookup::kFound && camera_) {
+    const std::string name = formatStamp(stamp);
+    try {
+      if (options_.pose) {
+        lifting->lifted =
+            liftEndpoints(name, lifting->lines, *depth, *camera_, method_.endpoints());
+      }
+      if (detected && options_.repeatability) {
+        node->spatial = std::make_shared<SpatialFrame>(liftLines(
+            options_.repeatabilities.protocol, name, lifting->lines, *depth, *camera_, Pose()));
+      }
+      state = State::kReady;
+    } catch (const Error& error) {
+      update->notes.emplace_back(error.what());
+    }
+  }
+  lifting->lines = LineSegments();
+  return state;
+}
+
+void MotionEvaluation::advance(bool complete, MotionUpdate* update) {
+  auto node = settled_ ? nodes_.upper_bound(*settled_) : nodes_.begin();
+  while (node != nodes_.end() && (complete || isSettled(node))) {
+    settle(node->first, &node->second, update);
+    ++node;
+  }
+}
+
+bool MotionEvaluation::isSettled(Nodes::const_iterator node) const {
+  if (node->second.detected.state != State::kAbsent) {
+    return node->second.detected.state != State::kWaiting &&
+           node->second.pose_state != State::kWaiting;
+  }
+  std::size_t overtaken = 0;
+  for (auto later = std::next(node); later != nodes_.end() && overtaken < kMostSwapped; ++later) {
+    overtaken += later->second.detected.state != State::kAbsent ? 1 : 0;
+  }
+  return overtaken == kMostSwapped;
+}
+
+void MotionEvaluation::settle(Stamp stamp, Node* node, MotionUpdate* update) {
+  settled_ = stamp;
+  const std::size_t place = places_++;
+  if (node->detected.state == State::kAbsent) {
+    return;
+  }
+  if (node->pose_state != State::kReady) {
+    ++counts_.no_pose;
+  } else if (node->detected.state != State::kReady) {
+    ++counts_.no_depth;
+  } else {
+    ++counts_.frames;
+    if (node->spatial) {
+      node->spatial->pose = node->pose;
+      scorePairs(stamp, node->spatial, update);
+      recent_.push_back({place, stamp, node->spatial});
+    }
+  }
+  node->spatial.reset();
+}
+
+void MotionEvaluation::scorePairs(Stamp stamp, const std::shared_ptr<const SpatialFrame>& frame,
+                                  MotionUpdate* update) {
+  const std::vector<int>& steps = options_.repeatabilities.frame_steps;
+  const auto longest = static_cast<std::size_t>(*std::max_element(steps.begin(), steps.end()));
+  const std::size_t place = places_ - 1;
+  while (!recent_.empty() && recent_.front().place + longest < place) {
+    recent_.pop_front();
+  }
+  for (const int step : steps) {
+    const auto first = std::find_if(recent_.begin(), recent_.end(), [&](const Scored& scored) {
+      return scored.place + static_cast<std::size_t>(step) == place;
+    });
+    if (first == recent_.end()) {
+      continue;
+    }
+    RepeatabilityRecord record;
+    record.first_stamp = first->stamp;
+    record.stamp = stamp;
+    record.frame_step = step;
+    try {
+      record.pair = repeatability_.addPair(step, *first->frame, *frame);
+    } catch (const Error& error) {
+      update->notes.emplace_back(error.what());
+      continue;
+    }
+    // The relatives are of one step, or their pairs would count several times.
+    if (step == steps.front()) {
+      const OneToOneRepeatability one_to_one = one_to_one_.addPair(*first->frame, *frame);
+      record.one_to_one_by_count = one_to_one.byCount();
+      record.one_to_one_by_length = one_to_one.byLength();
+      record.best = best_localization_.addPair(*first->frame, *frame);
+    }
+    update->repeatability.push_back(std::move(record));
+  }
+}
+
+void MotionEvaluation::tryPairs(Stamp stamp, MotionUpdate* update) {
+  for (auto pair = pending_.begin(); pair != pending_.end();) {
+    const bool concerned = pair->first.first == stamp || pair->first.second == stamp;
+    const bool done = concerned && tryPair(pair->first, pair->second, false, update);
+    pair = done ? pending_.erase(pair) : std::next(pair);
+  }
+}
+
+bool MotionEvaluation::tryPair(const PairKey& key, const MatchSet& matches, bool complete,
+                               MotionUpdate* update) {
+  const auto first = nodes_.find(key.first);
+  const auto second = nodes_.find(key.second);
+  const bool sources_known = !ground_truth_source_.empty() || matches.lines_source == lines_source_;
+  if (!complete && (first == nodes_.end() || second == nodes_.end() || !sources_known)) {
+    return false;
+  }
+  const bool truth = !ground_truth_source_.empty() && matches.lines_source == ground_truth_source_;
+  bool no_depth = false;
+  bool no_pose = false;
+  for (const auto& node : {first, second}) {
+    const bool gone = node == nodes_.end();
+    const State lines = gone    ? State::kAbsent
+                        : truth ? node->second.truth.state
+                                : node->second.detected.state;
+    const State pose = gone ? State::kNever : node->second.pose_state;
+    const bool undecided =
+        lines == State::kAbsent || lines == State::kWaiting || pose == State::kWaiting;
+    if (undecided && !complete) {
+      return false;
+    }
+    no_depth = no_depth || lines != State::kReady;
+    no_pose = no_pose || pose != State::kReady;
+  }
+  if (no_pose) {
+    ++counts_.pairs_no_pose;
+  } else if (no_depth) {
+    ++counts_.pairs_no_depth;
+  } else {
+    makeTask(matches, first->second, second->second, truth, update);
+  }
+  return true;
+}
+
+void MotionEvaluation::makeTask(const MatchSet& matches, const Node& first, const Node& second,
+                                bool truth, MotionUpdate* update) {
+  PoseTask task;
+  task.first_stamp = matches.first_stamp;
+  task.stamp = matches.stamp;
+  task.matched = matches.matches.size();
+  try {
+    task.matches = liftedMatches(truth ? first.truth.lifted : first.detected.lifted,
+                                 truth ? second.truth.lifted : second.detected.lifted,
+                                 toIndexPairs(matches.matches));
+  } catch (const Error& error) {
+    ++counts_.pairs_skipped;
+    update->notes.push_back("matches of " + formatStamp(matches.first_stamp) + " and " +
+                            formatStamp(matches.stamp) + ": " + error.what());
+    return;
+  }
+  task.camera = *camera_;
+  task.truth = relativeMotion(first.pose, second.pose);
+  ++counts_.pose_pairs;
+  update->pose_tasks.push_back(std::move(task));
+}
+
+}  // namespace evolin

@@ -1,0 +1,219 @@
+// What a pass has to tell, put together.
+#include <algorithm>
+#include <tuple>
+
+#include "evolin_ros/evaluation/pass_evaluation.h"
+#include "evolin_ros/metrics/association.h"
+#include "evolin_ros/metrics/track_length.h"
+
+namespace evolin {
+
+namespace {
+
+/// By second stamp, then first.
+template <class Record>
+void sortByStamp(std::vector<Record>* records) {
+  std::stable_sort(records->begin(), records->end(), [](const Record& a, const Record& b) {
+    return std::tie(a.stamp, a.first_stamp) < std::tie(b.stamp, b.first_stamp);
+  });
+}
+
+}  // namespace
+
+FrameState PassEvaluation::stateByWhatIsMissing(bool has_lines) {
+  return has_lines ? FrameState::kNoGroundTruth : FrameState::kUnmatched;
+}
+
+CoverageCounts PassEvaluation::coverage() const {
+  CoverageCounts counts = coverage_;
+  counts.no_depth = motion_.counts().no_depth;
+  counts.no_pose = motion_.counts().no_pose;
+  return counts;
+}
+
+bool PassEvaluation::waiting() const {
+  if (heatmaps_pending_ + poses_pending_ > 0) {
+    return true;
+  }
+  std::optional<Stamp> newest;
+  for (const auto& [stamp, entry] : entries_) {
+    const bool has_lines = entry.record.lines.has_value();
+    if (!has_lines && entry.record.state == FrameState::kWaiting) {
+      return true;
+    }
+    const bool matched_lines = matches_lines_source_ == ground_truth_source_
+                                   ? entry.record.ground_truth.has_value()
+                                   : has_lines;
+    if (matched_lines) {
+      newest = stamp;
+    }
+  }
+  return newest_matches_ && newest && *newest_matches_ < *newest;
+}
+
+Report PassEvaluation::report(bool complete) const {
+  Report report;
+  report.families = options_.families;
+  report.protocol = options_.evaluation.vectorized.protocol;
+  report.complete = complete;
+  report.lines_source = lines_source_;
+  report.ground_truth_source = ground_truth_source_;
+  report.matches_source = matches_source_;
+  report.matches_lines_source = matches_lines_source_;
+  report.detection_frames = evaluator_.detection().frames();
+  report.scored = evaluator_.detection().scored();
+  report.detection = evaluator_.detectionEntries();
+  report.spatial_spread = evaluator_.spread().share();
+  report.association = evaluator_.association().classification();
+  report.pairs = pair_counts_;
+  for (const auto& [key, matches] : pending_pairs_) {
+    ++(betweenDetectedLines(matches) ? report.pairs.detected_lines : report.pairs.no_ground_truth);
+  }
+  fillDetectedAssociation(&report);
+  fillHeatmap(&report);
+  fillMotion(complete, &report);
+  if (wants(MetricFamily::kTracks)) {
+    report.tracks = tracks();
+  }
+  const bool on_ground_truth = newest_matches_ && !ground_truth_source_.empty() &&
+                               matches_lines_source_ == ground_truth_source_;
+  if (on_ground_truth) {
+    const auto step = static_cast<std::size_t>(options_.frame_step);
+    report.pairs_expected = ground_truth_seen_ > step ? ground_truth_seen_ - step : 0;
+  }
+  report.detector_timing = summarizeTimes(detector_times_);
+  report.associator_timing = summarizeTimes(associator_times_);
+  report.frames.reserve(entries_.size());
+  for (const auto& [stamp, entry] : entries_) {
+    FrameRecord record = entry.record;
+    if (complete && record.state == FrameState::kWaiting) {
+      record.state = stateByWhatIsMissing(record.lines.has_value());
+    }
+    report.coverage.add(record.state);
+    report.frames.push_back(std::move(record));
+  }
+  report.pair_records = pair_records_;
+  sortByStamp(&report.pair_records);
+  report.notes = notes_;
+  if (notes_left_out_ > 0) {
+    report.notes.push_back("and " + std::to_string(notes_left_out_) + " more of these");
+  }
+  return report;
+}
+
+void PassEvaluation::fillDetectedAssociation(Report* report) const {
+  report->detected_association = evaluator_.detectedAssociation().classification();
+  report->detected_pairs = detected_pair_counts_;
+  report->detected_pairs.no_ground_truth += pending_detected_pairs_.size();
+  report->detected_pair_records = detected_pair_records_;
+  sortByStamp(&report->detected_pair_records);
+}
+
+void PassEvaluation::fillHeatmap(Report* report) const {
+  report->heatmap.score_thresholds = evaluator_.heatmapThresholds();
+  report->heatmap.counts = evaluator_.heatmap();
+  report->heatmap.frames = evaluator_.heatmapFrames();
+  report->heatmap.pending = heatmaps_pending_;
+}
+
+void PassEvaluation::fillMotion(bool complete, Report* report) const {
+  PoseReport& pose = report->pose;
+  pose.method = options_.motion.pose_method;
+  pose.frame_step = options_.frame_step;
+  pose.auc_thresholds = options_.auc_thresholds;
+  pose.errors = evaluator_.pose();
+  pose.pending = poses_pending_;
+  pose.records = pose_records_;
+  report->repeatability.records = repeatability_records_;
+  if (!complete) {
+    fillRepeatability(motion_, report);
+  } else {
+    // What still waits will wait for ever; the pass itself stays open for what may come all the
+    // same.
+    MotionEvaluation finished = motion_;
+    MotionUpdate rest = finished.finish();
+    std::vector<RepeatabilityRecord>& records = report->repeatability.records;
+    records.insert(records.end(), rest.repeatability.begin(), rest.repeatability.end());
+    const PoseMethod method(options_.motion.pose_method);
+    for (const PoseTask& task : rest.pose_tasks) {
+      pose.records.push_back(runPoseTask(task, method));
+      pose.errors.addPair(pose.records.back().pair);
+    }
+    fillRepeatability(finished, report);
+  }
+  sortByStamp(&report->repeatability.records);
+  sortByStamp(&pose.records);
+}
+
+void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* report) const {
+  RepeatabilityReport& repeatability = report->repeatability;
+  repeatability.counts = motion.counts();
+  repeatability.camera = motion.hasCamera();
+  repeatability.depth = motion.hasDepth();
+  repeatability.poses = motion.hasPoses();
+  const RepeatabilityMetrics& metrics = motion.repeatability();
+  for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
+    const RepeatabilitySetting& setting = metrics.settings()[i];
+    repeatability.rows.push_back({setting, metrics.pairs(setting.frame_step), metrics.figures(i)});
+  }
+  repeatability.one_to_one = motion.oneToOne();
+  repeatability.best_localization = motion.bestLocalization();
+  repeatability.best_count = options_.motion.best_localization.count;
+  report->coverage.no_depth = motion.counts().no_depth;
+  report->coverage.no_pose = motion.counts().no_pose;
+  report->coverage.heatmap_skipped = coverage_.heatmap_skipped;
+  report->coverage.pose_skipped = coverage_.pose_skipped;
+}
+
+TrackReport PassEvaluation::tracks() const {
+  TrackReport report;
+  bool ids = false;
+  bool matches = false;
+  for (const auto& [stamp, entry] : entries_) {
+    ids = ids || !entry.track_ids.empty();
+    matches = matches || entry.earlier_matches.has_value();
+  }
+  if (!ids && !matches) {
+    report.reason = "not evaluated: the detected lines carry no track ids and are not matched";
+    return report;
+  }
+  report.from_matches = !ids;
+  TrackMetrics metrics;
+  TrackBuilder builder;
+  std::optional<Stamp> previous;
+  std::size_t previous_count = 0;
+  for (const auto& [stamp, entry] : entries_) {
+    if (!entry.record.lines) {
+      continue;
+    }
+    std::vector<std::int64_t> track_ids = entry.track_ids;
+    if (!ids) {
+      IndexPairs pairs;
+      if (entry.earlier_matches && entry.earlier_matches->first_stamp == previous) {
+        for (const IndexPair& pair : toIndexPairs(entry.earlier_matches->matches)) {
+          if (pair.first < static_cast<std::int64_t>(previous_count) &&
+              pair.second < static_cast<std::int64_t>(entry.line_count)) {
+            pairs.push_back(pair);
+          }
+        }
+      }
+      track_ids = builder.addFrame(entry.line_count, pairs);
+    } else if (track_ids.empty()) {
+      track_ids.assign(entry.line_count, kNoId);
+    }
+    metrics.addFrame(track_ids, entry.carried_ids);
+    previous = stamp;
+    previous_count = entry.line_count;
+  }
+  report.frames = metrics.frames();
+  report.tracks = metrics.tracks();
+  report.mean_length = metrics.meanLength();
+  report.median_length = metrics.medianLength();
+  report.longest = metrics.longest();
+  report.observations = metrics.observations();
+  report.identity_switches = metrics.identitySwitches();
+  report.drifts = metrics.drifts();
+  return report;
+}
+
+}  // namespace evolin

@@ -1,0 +1,34 @@
+// One accumulator a frame: only its counts go back.
+#include "evolin_ros/evaluation/task.h"
+
+#include "evolin_ros/base/error.h"
+
+namespace evolin {
+
+TaskRunner::TaskRunner(const TaskOptions& options)
+    : heatmap_(options.heatmap), pose_method_(options.pose_method) {}
+
+EvaluationResult TaskRunner::run(const EvaluationTask& task) const {
+  EvaluationResult result{task.generation, task.pass, HeatmapRecord()};
+  if (const auto* heatmap = std::get_if<HeatmapTask>(&task.work)) {
+    result.record = measure(*heatmap);
+  } else {
+    result.record = runPoseTask(std::get<PoseTask>(task.work), pose_method_);
+  }
+  return result;
+}
+
+HeatmapRecord TaskRunner::measure(const HeatmapTask& task) const {
+  HeatmapRecord record;
+  record.stamp = task.stamp;
+  HeatmapMetrics frame(heatmap_);
+  try {
+    frame.addFrame(0, formatStamp(task.stamp), task.size, task.lines, task.ground_truth);
+    record.counts = frame.classifications();
+  } catch (const Error& error) {
+    record.reason = error.what();
+  }
+  return record;
+}
+
+}  // namespace evolin
