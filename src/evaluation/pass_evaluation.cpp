@@ -33,6 +33,7 @@ void EvaluationUpdate::append(EvaluationUpdate other) {
   std::move(other.frames.begin(), other.frames.end(), std::back_inserter(frames));
   std::move(other.pairs.begin(), other.pairs.end(), std::back_inserter(pairs));
   std::move(other.notes.begin(), other.notes.end(), std::back_inserter(notes));
+  std::move(other.warnings.begin(), other.warnings.end(), std::back_inserter(warnings));
   new_pass = new_pass || other.new_pass;
 }
 
@@ -216,8 +217,26 @@ void PassEvaluation::hold(Stamp stamp) {
   held_.erase(held_.begin());
 }
 
+void PassEvaluation::countDroppedFrame(const std::string& text) {
+  ++dropped_messages_;
+  coverage_.add(FrameState::kDropped);
+  keepNote(text);
+}
+
+void PassEvaluation::countSkippedPair(const std::string& text) {
+  ++pair_counts_.skipped;
+  keepNote(text);
+}
+
 void PassEvaluation::note(const std::string& text, EvaluationUpdate* update) {
   update->notes.push_back(text);
+  keepNote(text);
+}
+
+void PassEvaluation::keepNote(const std::string& text) {
+  if (text.empty()) {
+    return;
+  }
   if (notes_.size() < kMostNotes) {
     notes_.push_back(text);
   } else {
@@ -279,6 +298,9 @@ Report PassEvaluation::report(bool complete) const {
     }
     report.coverage.add(record.state);
     report.frames.push_back(std::move(record));
+  }
+  for (std::size_t i = 0; i < dropped_messages_; ++i) {
+    report.coverage.add(FrameState::kDropped);
   }
   report.pair_records = pair_records_;
   std::sort(report.pair_records.begin(), report.pair_records.end(),

@@ -4,12 +4,25 @@
 #include <algorithm>
 #include <utility>
 
+#include "evolin_ros/base/stamp.h"
+#include "evolin_ros/base/text.h"
+
 namespace evolin {
 
 namespace {
 
 /// Results that a front-end of several threads may give out before the first one.
 constexpr std::size_t kMostSwapped = 8;
+
+std::string secondsText(Stamp stamp) { return formatStamp(stamp) + " s"; }
+
+/// Which publishers an input has is not known here, but two methods on one topic give themselves
+/// away.
+std::string sourcesText(const std::string& before, const std::string& now) {
+  return before == now ? ""
+                       : " (from " + quote(now) + ", the message before it from " + quote(before) +
+                             ": does more than one node publish here?)";
+}
 
 }  // namespace
 
@@ -48,13 +61,28 @@ bool StreamEvaluator::startedOutOfOrder(Input input, Stamp stamp) const {
   });
 }
 
-PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* update) {
-  const std::optional<int> pass = passOf(input, key);
-  if (!pass) {
+PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& source,
+                                       EvaluationUpdate* update) {
+  if (key.first == 0) {
+    drop(input, kNoStamp, "a message without a stamp (0 s)", update);
     return nullptr;
+  }
+  Follower& follower = followers_[input];
+  const int pass_before = follower.pass;
+  const std::optional<int> pass = passOf(input, key);
+  const std::string sources = sourcesText(pass_before == 0 ? source : follower.source, source);
+  follower.source = source;
+  if (!pass) {
+    drop(input, kRepeated, "a second message of stamp " + secondsText(key.first) + sources, update);
+    return nullptr;
+  }
+  if (*pass != pass_before && !sources.empty() && told_.insert({input, kSeveralSources}).second) {
+    update->warnings.push_back("time jumped back to " + secondsText(key.first) + sources +
+                               "; every jump begins a pass of its own");
   }
   if (*pass > newest_) {
     newest_ = *pass;
+    noted_.clear();
     update->new_pass = true;
     passes_.emplace(newest_, PassEvaluation(options_));
     while (passes_.begin()->first < newest_ - 1) {
@@ -64,12 +92,40 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* u
     }
   }
   const auto found = passes_.find(*pass);
-  return found == passes_.end() ? nullptr : &found->second;
+  if (found == passes_.end()) {
+    drop(input, kPassClosed,
+         "a message of stamp " + secondsText(key.first) + ", which belongs to pass " +
+             std::to_string(*pass) + ", in pass " + std::to_string(newest_),
+         update);
+    return nullptr;
+  }
+  return &found->second;
+}
+
+void StreamEvaluator::drop(Input input, Fault fault, const std::string& what,
+                           EvaluationUpdate* update) {
+  if (input == kImage) {
+    return;
+  }
+  constexpr const char* kNames[kInputs] = {"images", "lines", "ground truth", "matches"};
+  const std::string text = what + " is left out; it and others of its kind count as " +
+                           (input == kMatches ? "skipped pairs" : "dropped");
+  const bool is_new = noted_.insert({input, fault}).second;
+  const std::string note = is_new ? std::string(kNames[input]) + ": " + text : "";
+  PassEvaluation& newest = passes_.at(newest_);
+  if (input == kMatches) {
+    newest.countSkippedPair(note);
+  } else {
+    newest.countDroppedFrame(note);
+  }
+  if (told_.insert({input, fault}).second) {
+    update->warnings.push_back(text);
+  }
 }
 
 EvaluationUpdate StreamEvaluator::addImage(Stamp stamp) {
   EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(kImage, {stamp, 0}, &update)) {
+  if (PassEvaluation* pass = enter(kImage, {stamp, 0}, "", &update)) {
     update.append(pass->addImage(stamp));
   }
   return update;
@@ -77,7 +133,7 @@ EvaluationUpdate StreamEvaluator::addImage(Stamp stamp) {
 
 EvaluationUpdate StreamEvaluator::addLines(LineSet lines) {
   EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(kLines, {lines.stamp, 0}, &update)) {
+  if (PassEvaluation* pass = enter(kLines, {lines.stamp, 0}, lines.source, &update)) {
     update.append(pass->addLines(std::move(lines)));
   }
   return update;
@@ -85,7 +141,8 @@ EvaluationUpdate StreamEvaluator::addLines(LineSet lines) {
 
 EvaluationUpdate StreamEvaluator::addGroundTruth(LineSet ground_truth) {
   EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(kGroundTruth, {ground_truth.stamp, 0}, &update)) {
+  if (PassEvaluation* pass =
+          enter(kGroundTruth, {ground_truth.stamp, 0}, ground_truth.source, &update)) {
     update.append(pass->addGroundTruth(std::move(ground_truth)));
   }
   return update;
@@ -93,7 +150,8 @@ EvaluationUpdate StreamEvaluator::addGroundTruth(LineSet ground_truth) {
 
 EvaluationUpdate StreamEvaluator::addMatches(MatchSet matches) {
   EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(kMatches, {matches.stamp, matches.first_stamp}, &update)) {
+  if (PassEvaluation* pass =
+          enter(kMatches, {matches.stamp, matches.first_stamp}, matches.source, &update)) {
     update.append(pass->addMatches(std::move(matches)));
   }
   return update;

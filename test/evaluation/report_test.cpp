@@ -299,6 +299,7 @@ TEST(ReportMarkdown, NamesEveryReasonOfCoverage) {
   Report report;
   for (const FrameState state : kStates) report.coverage.add(state);
   report.input_images = 9;
+  report.frames.resize(7);
   const std::string text = toMarkdown(report);
   for (const char* part :
        {"1 of 7 frames evaluated", "1 still waiting", "unmatched", "full buffer",

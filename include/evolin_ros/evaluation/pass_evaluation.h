@@ -28,7 +28,8 @@ struct PassOptions {
 struct EvaluationUpdate {
   std::vector<FrameRecord> frames;
   std::vector<PairRecord> pairs;
-  std::vector<std::string> notes;  ///< new ones, for the log
+  std::vector<std::string> notes;     ///< new ones, for the log
+  std::vector<std::string> warnings;  ///< faults of the input, for the log; each kind is told once
   bool new_pass = false;
 
   void append(EvaluationUpdate other);
@@ -45,6 +46,11 @@ class PassEvaluation {
   EvaluationUpdate addLines(LineSet lines);
   EvaluationUpdate addGroundTruth(LineSet ground_truth);
   EvaluationUpdate addMatches(MatchSet matches);
+
+  /// A message that cannot belong to any frame counts as a dropped one, a part of a pair as
+  /// skipped. `text` goes to the report's notes; "" when it is there already.
+  void countDroppedFrame(const std::string& text);
+  void countSkippedPair(const std::string& text);
 
   /// The figures so far. With `complete` nothing is waited for any more, and waiting frames are
   /// counted by what they lack.
@@ -79,6 +85,7 @@ class PassEvaluation {
   bool evaluatePair(const MatchSet& matches, EvaluationUpdate* update);
   void hold(Stamp stamp);
   void note(const std::string& text, EvaluationUpdate* update);
+  void keepNote(const std::string& text);
   bool betweenDetectedLines(const MatchSet& matches) const;
 
   PassOptions options_;
@@ -89,6 +96,7 @@ class PassEvaluation {
   std::vector<PairRecord> pair_records_;
   PairCounts pair_counts_;
   CoverageCounts coverage_;
+  std::size_t dropped_messages_ = 0;  ///< without an entry; in coverage_ all the same
   std::vector<double> detector_times_;
   std::vector<double> associator_times_;
   std::vector<std::string> notes_;
