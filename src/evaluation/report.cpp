@@ -11,6 +11,11 @@ namespace evolin {
 
 namespace {
 
+constexpr char kFrames[] = "frames.csv";
+constexpr char kPairs[] = "pairs.csv";
+constexpr char kSummary[] = "summary.md";
+constexpr char kReport[] = "report.json";
+
 /// Linear between neighbours; `sorted` is not empty, `fraction` in [0, 1].
 double quantile(const std::vector<double>& sorted, double fraction) {
   const double place = fraction * static_cast<double>(sorted.size() - 1);
@@ -123,12 +128,20 @@ std::string whyNoAveragePrecision(const Report& report, const DetectionEntry& en
 }
 
 std::filesystem::path writeReport(const Report& report, const std::filesystem::path& folder) {
-  writeFileAtomically(folder / "frames.csv", framesToCsv(report));
-  writeFileAtomically(folder / "pairs.csv", pairsToCsv(report));
-  writeFileAtomically(folder / "summary.md", toMarkdown(report));
-  const std::filesystem::path file = folder / "report.json";
+  writeFileAtomically(folder / kFrames, framesToCsv(report));
+  writeFileAtomically(folder / kPairs, pairsToCsv(report));
+  writeFileAtomically(folder / kSummary, toMarkdown(report));
+  const std::filesystem::path file = folder / kReport;
   writeFileAtomically(file, toJson(report));
   return file;
+}
+
+void removeReport(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {kFrames, kPairs, kSummary, kReport}) {
+    std::filesystem::remove(folder / name, ignored);
+  }
+  std::filesystem::remove(folder, ignored);
 }
 
 }  // namespace evolin
