@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <tuple>
+#include <unordered_set>
+#include <utility>
 
 #include "evolin_ros/base/error.h"
 
@@ -23,12 +24,17 @@ bool hasIds(const LineSegments& lines) {
                      [](const LineSegment& line) { return line.id >= 0; });
 }
 
-std::vector<std::int64_t> trackIdsOf(const LineSegments& lines) {
+/// Empty when no line has an id. An id names one line of a frame: only its first row keeps it.
+std::vector<std::int64_t> trackIdsOf(const LineSegments& lines, std::size_t* repeated) {
   std::vector<std::int64_t> ids;
-  if (hasIds(lines)) {
-    for (const LineSegment& line : lines) {
-      ids.push_back(line.id);
-    }
+  if (!hasIds(lines)) {
+    return ids;
+  }
+  std::unordered_set<std::int64_t> seen;
+  for (const LineSegment& line : lines) {
+    const bool is_new = line.id >= 0 && seen.insert(line.id).second;
+    *repeated += line.id >= 0 && !is_new ? 1 : 0;
+    ids.push_back(is_new ? line.id : kNoId);
   }
   return ids;
 }
@@ -58,6 +64,7 @@ void EvaluationUpdate::append(EvaluationUpdate other) {
   appendTo(&poses, std::move(other.poses));
   appendTo(&tasks, std::move(other.tasks));
   appendTo(&notes, std::move(other.notes));
+  appendTo(&warnings, std::move(other.warnings));
   new_pass = new_pass || other.new_pass;
 }
 
@@ -112,7 +119,13 @@ EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
   entry.record.lines = lines.lines.size();
   entry.line_count = lines.lines.size();
   if (wants(MetricFamily::kTracks)) {
-    entry.track_ids = trackIdsOf(lines.lines);
+    std::size_t repeated = 0;
+    entry.track_ids = trackIdsOf(lines.lines, &repeated);
+    if (repeated > 0) {
+      note("lines of frame " + formatStamp(stamp) + ": " + std::to_string(repeated) +
+               " repeat an id of the same frame; the first line of an id alone is followed",
+           &update);
+    }
   }
   take(motion_.addLines(lines), &update);
   if (!isMeasured(lines.processing_time)) {
@@ -378,8 +391,26 @@ void PassEvaluation::hold(Stamp stamp) {
   held_.erase(held_.begin());
 }
 
+void PassEvaluation::countDroppedFrame(const std::string& text) {
+  ++dropped_messages_;
+  coverage_.add(FrameState::kDropped);
+  keepNote(text);
+}
+
+void PassEvaluation::countSkippedPair(const std::string& text) {
+  ++pair_counts_.skipped;
+  keepNote(text);
+}
+
 void PassEvaluation::note(const std::string& text, EvaluationUpdate* update) {
   update->notes.push_back(text);
+  keepNote(text);
+}
+
+void PassEvaluation::keepNote(const std::string& text) {
+  if (text.empty()) {
+    return;
+  }
   if (notes_.size() < kMostNotes) {
     notes_.push_back(text);
   } else {

@@ -93,6 +93,9 @@ Report PassEvaluation::report(bool complete) const {
     report.frames.push_back(std::move(record));
   }
   report.pair_records = pair_records_;
+  for (std::size_t i = 0; i < dropped_messages_; ++i) {
+    report.coverage.add(FrameState::kDropped);
+  }
   sortByStamp(&report.pair_records);
   report.notes = notes_;
   if (notes_left_out_ > 0) {

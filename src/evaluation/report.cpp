@@ -11,6 +11,15 @@ namespace evolin {
 
 namespace {
 
+constexpr char kFrames[] = "frames.csv";
+constexpr char kPairs[] = "pairs.csv";
+constexpr char kRepeatabilities[] = "repeatability.csv";
+constexpr char kPoses[] = "poses.csv";
+constexpr char kTrueMotions[] = "relative_motion_ground_truth.tum";
+constexpr char kEstimatedMotions[] = "relative_motion_estimate.tum";
+constexpr char kSummary[] = "summary.md";
+constexpr char kReport[] = "report.json";
+
 /// Linear between neighbours; `sorted` is not empty, `fraction` in [0, 1].
 double quantile(const std::vector<double>& sorted, double fraction) {
   const double place = fraction * static_cast<double>(sorted.size() - 1);
@@ -88,20 +97,29 @@ TimingSummary summarizeTimes(std::vector<double> times) {
 }
 
 std::filesystem::path writeReport(const Report& report, const std::filesystem::path& folder) {
-  writeFileAtomically(folder / "frames.csv", framesToCsv(report));
-  writeFileAtomically(folder / "pairs.csv", pairsToCsv(report));
+  writeFileAtomically(folder / kFrames, framesToCsv(report));
+  writeFileAtomically(folder / kPairs, pairsToCsv(report));
   if (report.families.count(MetricFamily::kRepeatability) != 0) {
-    writeFileAtomically(folder / "repeatability.csv", repeatabilityToCsv(report));
+    writeFileAtomically(folder / kRepeatabilities, repeatabilityToCsv(report));
   }
   if (report.families.count(MetricFamily::kPose) != 0) {
-    writeFileAtomically(folder / "poses.csv", posesToCsv(report));
-    writeFileAtomically(folder / "relative_motion_ground_truth.tum", motionsToTum(report, false));
-    writeFileAtomically(folder / "relative_motion_estimate.tum", motionsToTum(report, true));
+    writeFileAtomically(folder / kPoses, posesToCsv(report));
+    writeFileAtomically(folder / kTrueMotions, motionsToTum(report, false));
+    writeFileAtomically(folder / kEstimatedMotions, motionsToTum(report, true));
   }
-  writeFileAtomically(folder / "summary.md", toMarkdown(report));
-  const std::filesystem::path file = folder / "report.json";
+  writeFileAtomically(folder / kSummary, toMarkdown(report));
+  const std::filesystem::path file = folder / kReport;
   writeFileAtomically(file, toJson(report));
   return file;
+}
+
+void removeReport(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {kFrames, kPairs, kRepeatabilities, kPoses, kTrueMotions,
+                           kEstimatedMotions, kSummary, kReport}) {
+    std::filesystem::remove(folder / name, ignored);
+  }
+  std::filesystem::remove(folder, ignored);
 }
 
 }  // namespace evolin

@@ -38,7 +38,7 @@ std::string coverageLine(const Report& report) {
   const std::pair<const char*, std::size_t> reasons[] = {
       {"still waiting", coverage.waiting},
       {"without detected lines (unmatched)", coverage.unmatched},
-      {"dropped from the full buffer", coverage.dropped},
+      {"dropped (full buffer, or a stamp that fits nowhere)", coverage.dropped},
       {"without ground truth", coverage.no_ground_truth},
       {"with bad ground truth", coverage.bad_ground_truth},
       {"skipped", coverage.skipped},
@@ -51,8 +51,9 @@ std::string coverageLine(const Report& report) {
       text += "; " + std::to_string(count) + " " + name;
     }
   }
-  if (report.input_images && *report.input_images > coverage.seen) {
-    text += "; " + std::to_string(*report.input_images - coverage.seen) + " of the " +
+  // Not coverage.seen: a message that was dropped for its stamp is no image of its own.
+  if (report.input_images && *report.input_images > report.frames.size()) {
+    text += "; " + std::to_string(*report.input_images - report.frames.size()) + " of the " +
             std::to_string(*report.input_images) + " images of the input were never heard of";
   }
   return text + ".";

@@ -4,12 +4,25 @@
 #include <algorithm>
 #include <utility>
 
+#include "evolin_ros/base/stamp.h"
+#include "evolin_ros/base/text.h"
+
 namespace evolin {
 
 namespace {
 
 /// Results that a front-end of several threads may give out before the first one.
 constexpr std::size_t kMostSwapped = 8;
+
+std::string secondsText(Stamp stamp) { return formatStamp(stamp) + " s"; }
+
+/// Which publishers an input has is not known here, but two methods on one topic give themselves
+/// away.
+std::string sourcesText(const std::string& before, const std::string& now) {
+  return before == now ? ""
+                       : " (from " + quote(now) + ", the message before it from " + quote(before) +
+                             ": does more than one node publish here?)";
+}
 
 }  // namespace
 
@@ -48,13 +61,28 @@ bool StreamEvaluator::startedOutOfOrder(Input input, Stamp stamp) const {
   });
 }
 
-PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* update) {
-  const std::optional<int> pass = passOf(input, key);
-  if (!pass) {
+PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& source,
+                                       EvaluationUpdate* update) {
+  if (key.first == 0) {
+    drop(input, kNoStamp, "a message without a stamp (0 s)", update);
     return nullptr;
+  }
+  Follower& follower = followers_[input];
+  const int pass_before = follower.pass;
+  const std::optional<int> pass = passOf(input, key);
+  const std::string sources = sourcesText(pass_before == 0 ? source : follower.source, source);
+  follower.source = source;
+  if (!pass) {
+    drop(input, kRepeated, "a second message of stamp " + secondsText(key.first) + sources, update);
+    return nullptr;
+  }
+  if (*pass != pass_before && !sources.empty() && told_.insert({input, kSeveralSources}).second) {
+    update->warnings.push_back("time jumped back to " + secondsText(key.first) + sources +
+                               "; every jump begins a pass of its own");
   }
   if (*pass > newest_) {
     newest_ = *pass;
+    noted_.clear();
     update->new_pass = true;
     const auto opened = passes_.emplace(newest_, PassEvaluation(options_)).first;
     if (camera_) {
@@ -67,7 +95,37 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, EvaluationUpdate* u
     }
   }
   const auto found = passes_.find(*pass);
-  return found == passes_.end() ? nullptr : &found->second;
+  if (found == passes_.end()) {
+    drop(input, kPassClosed,
+         "a message of stamp " + secondsText(key.first) + ", which belongs to pass " +
+             std::to_string(*pass) + ", in pass " + std::to_string(newest_),
+         update);
+    return nullptr;
+  }
+  return &found->second;
+}
+
+void StreamEvaluator::drop(Input input, Fault fault, const std::string& what,
+                           EvaluationUpdate* update) {
+  // Images, depth and poses are no result: what they lack shows where it is missed.
+  if (input == kImage || input == kDepth || input == kPose) {
+    return;
+  }
+  constexpr const char* kNames[kInputs] = {"images",  "lines", "ground truth",
+                                           "matches", "depth", "poses"};
+  const std::string text = what + " is left out; it and others of its kind count as " +
+                           (input == kMatches ? "skipped pairs" : "dropped");
+  const bool is_new = noted_.insert({input, fault}).second;
+  const std::string note = is_new ? std::string(kNames[input]) + ": " + text : "";
+  PassEvaluation& newest = passes_.at(newest_);
+  if (input == kMatches) {
+    newest.countSkippedPair(note);
+  } else {
+    newest.countDroppedFrame(note);
+  }
+  if (told_.insert({input, fault}).second) {
+    update->warnings.push_back(text);
+  }
 }
 
 EvaluationUpdate StreamEvaluator::marked(EvaluationUpdate update, int pass) const {
@@ -79,30 +137,31 @@ EvaluationUpdate StreamEvaluator::marked(EvaluationUpdate update, int pass) cons
 }
 
 template <class Add>
-EvaluationUpdate StreamEvaluator::add(Input input, Key key, const Add& add) {
+EvaluationUpdate StreamEvaluator::add(Input input, Key key, const std::string& source,
+                                      const Add& add) {
   EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(input, key, &update)) {
+  if (PassEvaluation* pass = enter(input, key, source, &update)) {
     update.append(marked(add(pass), followers_[input].pass));
   }
   return update;
 }
 
 EvaluationUpdate StreamEvaluator::addImage(Stamp stamp) {
-  return add(kImage, {stamp, 0}, [&](PassEvaluation* pass) { return pass->addImage(stamp); });
+  return add(kImage, {stamp, 0}, "", [&](PassEvaluation* pass) { return pass->addImage(stamp); });
 }
 
 EvaluationUpdate StreamEvaluator::addLines(LineSet lines) {
-  return add(kLines, {lines.stamp, 0},
+  return add(kLines, {lines.stamp, 0}, lines.source,
              [&](PassEvaluation* pass) { return pass->addLines(std::move(lines)); });
 }
 
 EvaluationUpdate StreamEvaluator::addGroundTruth(LineSet ground_truth) {
-  return add(kGroundTruth, {ground_truth.stamp, 0},
+  return add(kGroundTruth, {ground_truth.stamp, 0}, ground_truth.source,
              [&](PassEvaluation* pass) { return pass->addGroundTruth(std::move(ground_truth)); });
 }
 
 EvaluationUpdate StreamEvaluator::addMatches(MatchSet matches) {
-  return add(kMatches, {matches.stamp, matches.first_stamp},
+  return add(kMatches, {matches.stamp, matches.first_stamp}, matches.source,
              [&](PassEvaluation* pass) { return pass->addMatches(std::move(matches)); });
 }
 
@@ -116,12 +175,12 @@ EvaluationUpdate StreamEvaluator::setCamera(const Camera& camera) {
 }
 
 EvaluationUpdate StreamEvaluator::addDepth(Stamp stamp, DepthMap depth) {
-  return add(kDepth, {stamp, 0},
+  return add(kDepth, {stamp, 0}, "",
              [&](PassEvaluation* pass) { return pass->addDepth(stamp, std::move(depth)); });
 }
 
 EvaluationUpdate StreamEvaluator::addPose(const StampedPose& pose) {
-  return add(kPose, {pose.stamp, 0}, [&](PassEvaluation* to) { return to->addPose(pose); });
+  return add(kPose, {pose.stamp, 0}, "", [&](PassEvaluation* to) { return to->addPose(pose); });
 }
 
 PassEvaluation* StreamEvaluator::passOf(std::uint64_t generation, int pass) {

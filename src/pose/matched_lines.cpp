@@ -48,7 +48,7 @@ std::optional<LiftedLine> lift(const LineSegment& line, const DepthMap& depth, c
 }
 
 const std::optional<LiftedLine>& lineAt(const LiftedLines& lines, std::int64_t index,
-                                        std::size_t match, const std::string& which) {
+                                        std::size_t match, const char* which) {
   if (index < 0 || static_cast<std::size_t>(index) >= lines.size()) {
     throw Error("relative pose: match " + std::to_string(match) + " names line " +
                 std::to_string(index) + " of the " + which + " frame, expected 0 to " +

@@ -7,6 +7,8 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 
 #include "conversions.h"
 #include "evolin_ros/base/error.h"
@@ -29,6 +31,7 @@ std_msgs::Header headerAt(Stamp stamp, const char* frame_id) {
 
 struct BagWriter::Bag {
   std::string file;
+  std::map<std::string, std::uint32_t> next_numbers;  ///< by topic
   std::unique_ptr<rosbag::Bag> bag = std::make_unique<rosbag::Bag>();
 
   Bag() = default;
@@ -45,21 +48,29 @@ struct BagWriter::Bag {
     }
   }
 
+  /// Numbers the messages of each topic as a publisher does (rosbag plays the numbers as they are),
+  /// so that a listener notices what it lost. `header` is the one in `message`.
   template <class Message>
-  void write(const char* topic, const std_msgs::Header& header, const Message& message) {
-    if (header.stamp < ros::TIME_MIN) {
+  void write(const char* topic, std_msgs::Header* header, const Message& message) {
+    if (header->stamp < ros::TIME_MIN) {
       throw Error(file + ": a bag cannot hold stamp 0 s; give the sequence stamps after 0");
     }
-    bag->write(topic, header.stamp, message);
+    header->seq = next_numbers[topic]++;
+    bag->write(topic, header->stamp, message);
+  }
+
+  template <class Message>
+  void write(const char* topic, Message message) {
+    write(topic, &message.header, message);
   }
 
   void writeImage(const Frame& frame, const std_msgs::Header& header) {
     namespace encodings = sensor_msgs::image_encodings;
     const char* encoding =
         frame.image.channels() == 1 ? encodings::MONO8.c_str() : encodings::BGR8.c_str();
-    write(names::kImage, header, *cv_bridge::CvImage(header, encoding, frame.image).toImageMsg());
+    write(names::kImage, *cv_bridge::CvImage(header, encoding, frame.image).toImageMsg());
     if (frame.camera) {
-      write(names::kCameraInfo, header, ros_shell::toMessage(*frame.camera, header));
+      write(names::kCameraInfo, ros_shell::toMessage(*frame.camera, header));
     }
   }
 
@@ -70,11 +81,11 @@ struct BagWriter::Bag {
     }
     const std_msgs::Header header =
         headerAt(sequence_frame.depth_stamp.value_or(frame.stamp), names::kCameraFrame);
-    write(names::kDepth, header,
+    write(names::kDepth,
           *cv_bridge::CvImage(header, sensor_msgs::image_encodings::TYPE_32FC1, frame.depth)
                .toImageMsg());
     if (frame.camera) {
-      write(names::kDepthCameraInfo, header, ros_shell::toMessage(*frame.camera, header));
+      write(names::kDepthCameraInfo, ros_shell::toMessage(*frame.camera, header));
     }
   }
 
@@ -83,7 +94,7 @@ struct BagWriter::Bag {
     geometry_msgs::PoseStamped stamped;
     stamped.header = header;
     stamped.pose = ros_shell::toMessage(pose);
-    write(names::kGroundTruthPose, header, stamped);
+    write(names::kGroundTruthPose, stamped);
 
     geometry_msgs::TransformStamped transform;
     transform.header = header;
@@ -94,7 +105,7 @@ struct BagWriter::Bag {
     transform.transform.rotation = stamped.pose.orientation;
     tf2_msgs::TFMessage tf;
     tf.transforms.push_back(transform);
-    write(names::kTf, header, tf);
+    write(names::kTf, &tf.transforms.front().header, tf);
   }
 
   void writeGroundTruth(const LineSegments& lines, const Frame& frame,
@@ -108,7 +119,7 @@ struct BagWriter::Bag {
     set.scored = !lines.empty() && std::all_of(lines.begin(), lines.end(),
                                                [](const LineSegment& l) { return l.hasScore(); });
     set.lines = lines;
-    write(names::kGroundTruthLines, header, ros_shell::toMessage(set));
+    write(names::kGroundTruthLines, ros_shell::toMessage(set));
   }
 };
 

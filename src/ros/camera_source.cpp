@@ -39,7 +39,9 @@ void CameraSource::onCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) 
     const std::lock_guard<std::mutex> lock(mutex_);
     camera_ = camera;
   } catch (const Error& error) {
-    ROS_WARN_STREAM_ONCE(owner_ << ": " << camera_info_.getTopic() << ": " << error.what());
+    if (!warned_.exchange(true)) {
+      ROS_WARN_STREAM(owner_ << ": " << camera_info_.getTopic() << ": " << error.what());
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <sensor_msgs/CameraInfo.h>
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ class CameraSource {
   std::string owner_;
   mutable std::mutex mutex_;
   std::optional<Camera> camera_;
+  std::atomic<bool> warned_{false};
   ros::Subscriber camera_info_;
 };
 

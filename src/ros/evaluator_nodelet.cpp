@@ -1,12 +1,16 @@
 // The nodelet evolin_ros/Evaluator: lines, ground truth and matches in; metrics, coverage and a
 // report on disk out.
-#include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 
 #include "conversions.h"
@@ -15,34 +19,33 @@
 #include "evolin_ros/evaluation/stream_evaluator.h"
 #include "node_parameters.h"
 #include "report_keeper.h"
+#include "safe_nodelet.h"
 #include "topic_watchdog.h"
 #include "topics.h"
 #include "wall_throttle.h"
 
 namespace evolin::ros_shell {
 
-class EvaluatorNodelet : public nodelet::Nodelet {
+class EvaluatorNodelet : public SafeNodelet {
+ public:
+  /// A ~finish that waits is broken off and writes what there is.
+  ~EvaluatorNodelet() override {
+    stopping_ = true;
+    service_spinner_.stop();
+  }
+
  private:
   using Trigger = std_srvs::Trigger;
 
   /// Of the cumulative topics, s of wall time.
   static constexpr double kPublishPeriod = 0.5;
 
-  void onInit() override {
-    try {
-      start();
-    } catch (const std::exception& error) {
-      NODELET_FATAL("%s", error.what());
-      throw;
-    }
-  }
-
-  void start() {
+  void start() override {
     options_ = readEvaluatorOptions(privateParameters(getPrivateNodeHandle()), getName());
     evaluator_ = std::make_unique<StreamEvaluator>(options_.pass);
-    keeper_ = std::make_unique<ReportKeeper>(options_.output_dir);
+    keeper_ = std::make_unique<ReportKeeper>(options_.output_dir, getName());
     if (keeper_->replacesEarlier()) {
-      NODELET_WARN("the report of an earlier run in %s will be replaced",
+      NODELET_WARN("the report of an earlier run in %s will be replaced, its pass_N with it",
                    keeper_->folder().c_str());
     }
     watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), options_.warn_after);
@@ -82,9 +85,10 @@ class EvaluatorNodelet : public nodelet::Nodelet {
         handle.subscribe(topics::kCameraInfo, kResultQueue, &EvaluatorNodelet::onCameraInfo, this);
   }
 
-  /// Services and timers run on the manager's many threads: ~finish waits while messages come in.
+  /// Services have a thread of their own: ~finish waits while messages come in, however few threads
+  /// the manager has.
   void offerServices() {
-    ros::NodeHandle& handle = getMTPrivateNodeHandle();
+    ros::NodeHandle handle = getMTPrivateNodeHandle();
     save_timer_ =
         handle.createWallTimer(ros::WallDuration(options_.save_period),
                                [this](const ros::WallTimerEvent&) { saveQuietly(false); });
@@ -93,10 +97,12 @@ class EvaluatorNodelet : public nodelet::Nodelet {
     publish_timer_ =
         handle.createWallTimer(ros::WallDuration(kPublishPeriod),
                                [this](const ros::WallTimerEvent&) { publishSums(false); });
+    handle.setCallbackQueue(&service_queue_);
     save_ = handle.advertiseService(services::kSaveReport, &EvaluatorNodelet::onSave, this);
     reset_ = handle.advertiseService(services::kReset, &EvaluatorNodelet::onReset, this);
     // Last: whoever sees ~finish may start to send.
     finish_ = handle.advertiseService(services::kFinish, &EvaluatorNodelet::onFinish, this);
+    service_spinner_.start();
   }
 
   void expect(const std::string& topic, const std::string& type, const std::string& hint) {
@@ -104,30 +110,32 @@ class EvaluatorNodelet : public nodelet::Nodelet {
   }
 
   void onLines(const evolin_ros::LineArrayConstPtr& message) {
-    take(topics::kLines, message->header,
+    take(topics::kLines, lines_, message->header,
          [&] { return evaluator_->addLines(fromMessage(*message)); });
   }
 
   void onGroundTruth(const evolin_ros::LineArrayConstPtr& message) {
-    take(topics::kGroundTruthLines, message->header,
+    take(topics::kGroundTruthLines, ground_truth_, message->header,
          [&] { return evaluator_->addGroundTruth(fromMessage(*message)); });
   }
 
   void onMatches(const evolin_ros::LineMatchArrayConstPtr& message) {
-    take(topics::kMatches, message->header, [&] {
+    take(topics::kMatches, matches_, message->header, [&] {
       matches_heard_ = true;
       return evaluator_->addMatches(fromMessage(*message));
     });
   }
 
   void onCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
-    take(topics::kCameraInfo, message->header,
+    take(topics::kCameraInfo, camera_info_, message->header,
          [&] { return evaluator_->addImage(fromRos(message->header.stamp)); });
   }
 
   template <class Add>
-  void take(const std::string& topic, const std_msgs::Header& header, const Add& add) {
+  void take(const std::string& topic, const ros::Subscriber& subscriber,
+            const std_msgs::Header& header, const Add& add) {
     const std::string name = getNodeHandle().resolveName(topic);
+    const unsigned publishers = subscriber.getNumPublishers();
     watchdog_->heard(name);
     std::optional<Report> released;
     std::optional<Report> finished;
@@ -147,6 +155,9 @@ class EvaluatorNodelet : public nodelet::Nodelet {
       }
       publish(update, header);
     }
+    for (const std::string& warning : update.warnings) {
+      NODELET_WARN("%s (publishers: %u): %s", name.c_str(), publishers, warning.c_str());
+    }
     for (const std::string& note : update.notes) {
       if (warnings_.due()) {
         NODELET_WARN("%s: %s", name.c_str(), note.c_str());
@@ -158,6 +169,12 @@ class EvaluatorNodelet : public nodelet::Nodelet {
     if (finished) {
       NODELET_INFO("%s: time jumped back to %.6f, pass %d begins", name.c_str(),
                    header.stamp.toSec(), finished->pass + 1);
+      if (publishers > 1 && crowded_.insert(name).second) {
+        NODELET_WARN(
+            "%s has %u publishers and time jumped back to %.6f: where their stamps interleave, "
+            "every jump begins a pass; keep one of them",
+            name.c_str(), publishers, header.stamp.toSec());
+      }
       writeQuietly(std::move(*finished));
     }
   }
@@ -295,10 +312,17 @@ class EvaluatorNodelet : public nodelet::Nodelet {
   }
 
   bool onReset(Trigger::Request& /*request*/, Trigger::Response& response) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    evaluator_->reset();
-    longest_gap_ = 0;
-    matches_heard_ = false;
+    {
+      const std::scoped_lock lock(save_mutex_, mutex_);
+      evaluator_->reset();
+      keeper_->startOver();
+      longest_gap_ = 0;
+      matches_heard_ = false;
+      last_header_ = {};
+      published_inputs_.reset();
+    }
+    // What is latched is of figures that are forgotten.
+    publishSums(true);
     response.success = true;
     response.message = "all figures are forgotten; the next message begins pass 1";
     NODELET_INFO("%s", response.message.c_str());
@@ -325,7 +349,7 @@ class EvaluatorNodelet : public nodelet::Nodelet {
     // A slow method's next result may be a few of its longest pauses away.
     constexpr double kPauses = 4;
     constexpr double kLongest = 30;
-    while (ros::ok()) {
+    while (ros::ok() && !stopping_) {
       {
         const std::lock_guard<std::mutex> lock(mutex_);
         const double idle = (ros::WallTime::now() - last_input_).toSec();
@@ -341,6 +365,10 @@ class EvaluatorNodelet : public nodelet::Nodelet {
     return false;
   }
 
+  ros::CallbackQueue service_queue_;  ///< outlives the services
+  ros::AsyncSpinner service_spinner_{1, &service_queue_};
+  std::atomic<bool> stopping_{false};
+
   EvaluatorOptions options_;
   std::mutex save_mutex_;  ///< taken before mutex_
   std::mutex mutex_;       ///< guards what follows, up to the blank line
@@ -350,10 +378,11 @@ class EvaluatorNodelet : public nodelet::Nodelet {
   bool matches_heard_ = false;
   std::size_t inputs_ = 0;
   std::size_t saved_inputs_ = 0;
-  std::size_t published_inputs_ = 0;
+  std::optional<std::size_t> published_inputs_ = 0;  ///< none: the sums must go out
   ros::WallTime next_sums_;
   std_msgs::Header last_header_;
 
+  std::set<std::string> crowded_;  ///< topics of several publishers that a warning has named
   std::unique_ptr<ReportKeeper> keeper_;
   WallThrottle warnings_;
   WallThrottle errors_;

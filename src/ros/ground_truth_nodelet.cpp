@@ -1,7 +1,6 @@
 // The nodelet evolin_ros/GroundTruth: plays a folder of annotated (or recorded) lines beside a
 // stream of images.
 #include <image_transport/image_transport.h>
-#include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <memory>
@@ -12,24 +11,16 @@
 #include "evolin_ros/base/parameters.h"
 #include "evolin_ros/dataset/annotation_folder.h"
 #include "node_parameters.h"
+#include "safe_nodelet.h"
 #include "topic_watchdog.h"
 #include "topics.h"
 #include "wall_throttle.h"
 
 namespace evolin::ros_shell {
 
-class GroundTruthNodelet : public nodelet::Nodelet {
+class GroundTruthNodelet : public SafeNodelet {
  private:
-  void onInit() override {
-    try {
-      start();
-    } catch (const std::exception& error) {
-      NODELET_FATAL("%s", error.what());
-      throw;
-    }
-  }
-
-  void start() {
+  void start() override {
     ros::NodeHandle& handle = getNodeHandle();
     readOptions();
     if (!folder_->hasStamps()) {

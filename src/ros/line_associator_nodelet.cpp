@@ -2,7 +2,6 @@
 // apart out.
 #include <cv_bridge/cv_bridge.h>
 #include <image_transport/image_transport.h>
-#include <nodelet/nodelet.h>
 #include <sensor_msgs/image_encodings.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -19,13 +18,14 @@
 #include "node_parameters.h"
 #include "overlay.h"
 #include "plugin_loader.h"
+#include "safe_nodelet.h"
 #include "topic_watchdog.h"
 #include "topics.h"
 #include "wall_throttle.h"
 
 namespace evolin::ros_shell {
 
-class LineAssociatorNodelet : public nodelet::Nodelet {
+class LineAssociatorNodelet : public SafeNodelet {
  private:
   struct Options {
     std::string associator = "lbd";
@@ -39,16 +39,7 @@ class LineAssociatorNodelet : public nodelet::Nodelet {
     double warn_after = 3;
   };
 
-  void onInit() override {
-    try {
-      start();
-    } catch (const std::exception& error) {
-      NODELET_FATAL("%s", error.what());
-      throw;
-    }
-  }
-
-  void start() {
+  void start() override {
     ros::NodeHandle& handle = getNodeHandle();
     readOptions();
     NODELET_INFO("associator %s over %d frame(s), waiting for %s and %s%s",

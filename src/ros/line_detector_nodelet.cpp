@@ -1,7 +1,6 @@
 // The nodelet evolin_ros/LineDetector: images in, lines of any detector plug-in out.
 #include <cv_bridge/cv_bridge.h>
 #include <image_transport/image_transport.h>
-#include <nodelet/nodelet.h>
 #include <sensor_msgs/image_encodings.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -16,6 +15,7 @@
 #include "node_parameters.h"
 #include "overlay.h"
 #include "plugin_loader.h"
+#include "safe_nodelet.h"
 #include "sequence_gaps.h"
 #include "topic_watchdog.h"
 #include "topics.h"
@@ -23,7 +23,7 @@
 
 namespace evolin::ros_shell {
 
-class LineDetectorNodelet : public nodelet::Nodelet {
+class LineDetectorNodelet : public SafeNodelet {
  private:
   struct Options {
     std::string detector = "opencv_lsd";
@@ -36,16 +36,7 @@ class LineDetectorNodelet : public nodelet::Nodelet {
     double warn_after = 3;
   };
 
-  void onInit() override {
-    try {
-      start();
-    } catch (const std::exception& error) {
-      NODELET_FATAL("%s", error.what());
-      throw;
-    }
-  }
-
-  void start() {
+  void start() override {
     ros::NodeHandle& handle = getNodeHandle();
     readOptions();
     NODELET_INFO("detector %s, waiting for %s%s", options_.detector.c_str(),

@@ -11,8 +11,8 @@ namespace evolin::ros_shell {
 
 namespace {
 
-/// Topics of the same type first; only when there are none, all.
-std::string existingTopics(const std::string& type) {
+/// Whether it is there at all; else topics of the same type, and only when there are none, all.
+std::string whatThereIs(const std::string& expected, const std::string& type) {
   ros::master::V_TopicInfo topics;
   if (!ros::master::getTopics(topics)) {
     return "the master does not answer";
@@ -20,6 +20,12 @@ std::string existingTopics(const std::string& type) {
   std::string same;
   std::string all;
   for (const ros::master::TopicInfo& topic : topics) {
+    if (topic.name == expected) {
+      return topic.datatype == type
+                 ? "it is advertised but no message has come yet: its publisher is silent or has "
+                   "not connected"
+                 : "it is advertised with another type, " + topic.datatype;
+    }
     if (topic.datatype == type) {
       same += (same.empty() ? "" : ", ") + topic.name;
     }
@@ -77,7 +83,7 @@ void TopicWatchdog::check() {
   }
   for (const auto& [topic, expectation] : silent) {
     ROS_WARN_STREAM(owner_ << ": no message on " << topic << " (" << expectation.type << ") for "
-                           << seconds_ << " s; " << existingTopics(expectation.type) << "."
+                           << seconds_ << " s; " << whatThereIs(topic, expectation.type) << "."
                            << (expectation.hint.empty() ? "" : " ") << expectation.hint);
   }
 }

@@ -209,7 +209,7 @@ TEST(ReportCsv, HasTheSameColumnsInEveryRow) {
   for (const Report& report : sampleReports()) {
     const std::vector<std::string> frames = linesOf(framesToCsv(report));
     ASSERT_EQ(frames.size(), report.frames.size() + 1);
-    const std::size_t columns = 5 + 6 * 6;
+    const std::size_t columns = 6 + 6 * 6 + 3;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const std::vector<std::string> cells = cellsOf(frames[i]);
       ASSERT_EQ(cells.size(), columns) << frames[i];
@@ -299,6 +299,7 @@ TEST(ReportMarkdown, NamesEveryReasonOfCoverage) {
   Report report;
   for (const FrameState state : kStates) report.coverage.add(state);
   report.input_images = 9;
+  report.frames.resize(7);
   const std::string text = toMarkdown(report);
   for (const char* part :
        {"1 of 7 frames evaluated", "1 still waiting", "unmatched", "full buffer",
@@ -325,10 +326,14 @@ TEST(WriteReport, WritesAllFormsAndNothingElse) {
     EXPECT_EQ(contentOf(output / "summary.md"), toMarkdown(report));
     EXPECT_EQ(contentOf(output / "frames.csv"), framesToCsv(report));
     EXPECT_EQ(contentOf(output / "pairs.csv"), pairsToCsv(report));
+    EXPECT_EQ(contentOf(output / "repeatability.csv"), repeatabilityToCsv(report));
+    EXPECT_EQ(contentOf(output / "poses.csv"), posesToCsv(report));
+    EXPECT_EQ(contentOf(output / "relative_motion_ground_truth.tum"), motionsToTum(report, false));
+    EXPECT_EQ(contentOf(output / "relative_motion_estimate.tum"), motionsToTum(report, true));
   }
   const std::size_t files = static_cast<std::size_t>(std::distance(
       std::filesystem::directory_iterator(output), std::filesystem::directory_iterator()));
-  EXPECT_EQ(files, 4U) << "temporary files are left";
+  EXPECT_EQ(files, 8U) << "temporary files are left";
 }
 
 TEST(WriteReport, NamesAFolderThatCannotBeMade) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evolin_ros/evaluation/inputs.h"
@@ -106,7 +107,8 @@ inline void expectEqual(const CoverageCounts& a, const CoverageCounts& b) {
 inline std::string textOf(Report report) {
   report.pass = 1;
   std::sort(report.notes.begin(), report.notes.end());
-  return toJson(report) + toMarkdown(report) + framesToCsv(report) + pairsToCsv(report);
+  return toJson(report) + toMarkdown(report) + framesToCsv(report) + pairsToCsv(report) +
+         repeatabilityToCsv(report) + posesToCsv(report);
 }
 
 /// Everything that a stream may carry of one frame or pair.
@@ -119,7 +121,7 @@ struct Part {
 };
 
 template <typename Evaluation>
-EvaluationUpdate give(const Part& part, Evaluation* evaluation) {
+EvaluationUpdate giveOnly(const Part& part, Evaluation* evaluation) {
   switch (part.kind) {
     case Part::kImage:
       return evaluation->addImage(part.stamp);
@@ -131,6 +133,23 @@ EvaluationUpdate give(const Part& part, Evaluation* evaluation) {
       break;
   }
   return evaluation->addMatches(part.matches);
+}
+
+/// Does what an update asks for, at once.
+template <typename Evaluation>
+void runTasks(const TaskOptions& options, Evaluation* evaluation, EvaluationUpdate* update) {
+  const TaskRunner runner(options);
+  for (const EvaluationTask& task : std::exchange(update->tasks, {})) {
+    update->append(evaluation->addResult(runner.run(task)));
+  }
+}
+
+/// Adds the part and runs the tasks that it brings about.
+template <typename Evaluation>
+EvaluationUpdate give(const Part& part, Evaluation* evaluation) {
+  EvaluationUpdate update = giveOnly(part, evaluation);
+  runTasks({}, evaluation, &update);
+  return update;
 }
 
 /// A pass of `frames` frames in order of time: random annotations, noisy detections with scores of

@@ -170,21 +170,5 @@ TEST(SequenceEvaluator, NamesTheFrameWithARepeatedId) {
   EXPECT_EQ(evaluator.association().pairs(), 0U);
 }
 
-TEST(SequenceEvaluator, ResetForgetsFiguresAndKeepsOptions) {
-  EvaluationOptions options;
-  options.vectorized.distance_thresholds = {7};
-  SequenceEvaluator evaluator(options);
-  evaluator.addFrame(0, handLines(kSecond), handTruth(kSecond));
-  evaluator.addPair(matchSet(0, kSecond, "ground_truth", {{0, 0}}), handTruth(0).lines,
-                    handTruth(kSecond).lines);
-  evaluator.reset();
-  EXPECT_EQ(evaluator.detection().frames(), 0U);
-  EXPECT_EQ(evaluator.association().pairs(), 0U);
-  const FrameRecord record = evaluator.addFrame(0, handLines(kSecond), handTruth(kSecond));
-  ASSERT_EQ(record.entries.size(), 2U);
-  EXPECT_EQ(record.entries[1].setting.threshold, 7);
-  expectCounts(record.entries[1].counts, 2, 3, 2);
-}
-
 }  // namespace
 }  // namespace evolin

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "test/evaluation/sample_frames.h"
 
@@ -12,6 +16,7 @@ namespace {
 
 using test::expectCounts;
 using test::expectEqual;
+using test::expectSeenIsTheSum;
 using test::handLines;
 using test::handTruth;
 using test::kStructural5;
@@ -20,11 +25,15 @@ using test::Part;
 using test::randomPass;
 using test::textOf;
 
-/// What one pass over `parts` gives.
-std::string reportOfOnePass(const std::vector<Part>& parts) {
+PassEvaluation passOf(const std::vector<Part>& parts) {
   PassEvaluation pass;
   for (const Part& part : parts) give(part, &pass);
-  return textOf(pass.report(true));
+  return pass;
+}
+
+/// What one pass over `parts` gives.
+std::string reportOfOnePass(const std::vector<Part>& parts) {
+  return textOf(passOf(parts).report(true));
 }
 
 TEST(StreamEvaluator, ALoopGivesTheFiguresOfOnePassInEach) {
@@ -105,17 +114,98 @@ TEST(StreamEvaluator, APassThatLeavesMemoryIsGivenOutOnce) {
   EXPECT_FALSE(stream.takeReleasedReport().has_value());
 }
 
-TEST(StreamEvaluator, ADuplicateCountsOnce) {
+TEST(StreamEvaluator, ADuplicateChangesNoFigureAndIsCounted) {
   const std::vector<Part> parts = randomPass(5, 10);
   StreamEvaluator stream;
+  std::size_t frames = 0;
+  std::size_t pairs = 0;
+  std::map<Part::Kind, std::size_t> warnings;
   for (const Part& part : parts) {
     give(part, &stream);
     const EvaluationUpdate update = give(part, &stream);
     EXPECT_TRUE(update.frames.empty() && update.pairs.empty() && update.notes.empty());
     EXPECT_FALSE(update.new_pass);
+    warnings[part.kind] += update.warnings.size();
+    frames += part.kind == Part::kLines || part.kind == Part::kGroundTruth ? 1 : 0;
+    pairs += part.kind == Part::kMatches ? 1 : 0;
   }
   EXPECT_EQ(stream.pass(), 1);
-  EXPECT_EQ(textOf(stream.report(true)), reportOfOnePass(parts));
+  // Once for each input; an image that comes twice is no loss.
+  EXPECT_EQ(
+      warnings,
+      (std::map<Part::Kind, std::size_t>{
+          {Part::kImage, 0}, {Part::kLines, 1}, {Part::kGroundTruth, 1}, {Part::kMatches, 1}}));
+  ASSERT_GT(frames, 10U);
+  ASSERT_EQ(pairs, 9U);
+  Report report = stream.report(true);
+  expectSeenIsTheSum(report.coverage);
+  expectEqual(stream.coverage(), stream.report(false).coverage);
+  EXPECT_EQ(report.coverage.dropped, frames);
+  report.coverage.seen -= frames;
+  report.coverage.dropped -= frames;
+  report.pairs.skipped -= pairs;
+  EXPECT_EQ(report.notes.size(), 3U + passOf(parts).report(true).notes.size());
+  report.notes = passOf(parts).report(true).notes;
+  EXPECT_EQ(textOf(report), reportOfOnePass(parts));
+}
+
+TEST(StreamEvaluator, AMessageWithoutAStampIsCountedAndToldOnce) {
+  StreamEvaluator stream;
+  std::vector<std::string> warnings;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(stream.addImage(0).warnings.empty());
+    const EvaluationUpdate update = stream.addLines(handLines(0));
+    warnings.insert(warnings.end(), update.warnings.begin(), update.warnings.end());
+    EXPECT_FALSE(update.new_pass);
+  }
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("without a stamp (0 s)"), std::string::npos) << warnings[0];
+  stream.addLines(handLines(1));
+  stream.addGroundTruth(handTruth(1));
+  const Report report = stream.report(true);
+  EXPECT_EQ(report.coverage.seen, 4U);
+  EXPECT_EQ(report.coverage.dropped, 3U);
+  EXPECT_EQ(report.coverage.evaluated, 1U);
+  ASSERT_EQ(report.notes.size(), 1U);
+  EXPECT_EQ(report.notes[0].rfind("lines: ", 0), 0U) << report.notes[0];
+}
+
+TEST(StreamEvaluator, TwoMethodsOnOneInputAreTold) {
+  StreamEvaluator stream;
+  std::vector<std::string> warnings;
+  // One publisher is three frames ahead of the other.
+  for (const auto& [stamp, source] : std::vector<std::pair<Stamp, std::string>>{{10, "ahead"},
+                                                                                {11, "ahead"},
+                                                                                {12, "ahead"},
+                                                                                {10, "behind"},
+                                                                                {13, "ahead"},
+                                                                                {11, "behind"}}) {
+    LineSet lines = handLines(stamp);
+    lines.source = source;
+    const EvaluationUpdate update = stream.addLines(lines);
+    warnings.insert(warnings.end(), update.warnings.begin(), update.warnings.end());
+  }
+  EXPECT_EQ(stream.pass(), 2);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("0.00000001 s"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("'behind'"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("'ahead'"), std::string::npos) << warnings[0];
+}
+
+TEST(StreamEvaluator, PartsOfAClosedPassAreCountedInTheOneThatRuns) {
+  StreamEvaluator stream;
+  stream.addLines(handLines(5));
+  for (int pass = 1; pass <= 3; ++pass) {
+    for (const Stamp stamp : {4, 5, 6}) stream.addImage(stamp);
+  }
+  ASSERT_EQ(stream.pass(), 3);
+  const EvaluationUpdate update = stream.addLines(handLines(6));
+  ASSERT_EQ(update.warnings.size(), 1U);
+  EXPECT_NE(update.warnings[0].find("belongs to pass 1, in pass 3"), std::string::npos)
+      << update.warnings[0];
+  EXPECT_TRUE(stream.addLines(handLines(7)).warnings.empty());
+  EXPECT_EQ(stream.coverage().seen, 5U);
+  EXPECT_EQ(stream.coverage().dropped, 2U);
 }
 
 TEST(StreamEvaluator, TheNewestFrameAgainAfterALateOneIsADuplicate) {
@@ -126,7 +216,9 @@ TEST(StreamEvaluator, TheNewestFrameAgainAfterALateOneIsADuplicate) {
   for (const Stamp stamp : {1, 2, 3, 4}) stream.addGroundTruth(handTruth(stamp));
   EXPECT_EQ(stream.pass(), 1);
   const Report report = stream.report(true);
-  EXPECT_EQ(report.coverage.seen, 4U);
+  EXPECT_EQ(report.frames.size(), 4U);
+  EXPECT_EQ(report.coverage.evaluated, 4U);
+  EXPECT_EQ(report.coverage.dropped, 1U);
   expectCounts(report.detection[kStructural5].counts, 4, 12, 8);
 }
 

@@ -117,6 +117,28 @@ class BagOfFour : public testing::Test {
   rosbag::Bag bag_;
 };
 
+/// Whether the running numbers are 0, 1, 2, ... in order of time.
+template <typename Message, typename Header>
+void expectNumbered(const rosbag::Bag& bag, const std::string& topic, const Header& headerOf) {
+  SCOPED_TRACE(topic);
+  std::uint32_t number = 0;
+  for (const auto& [stamp, message] : messagesOf<Message>(bag, topic)) {
+    EXPECT_EQ(headerOf(*message).seq, number++);
+  }
+  EXPECT_GE(number, 2U);
+}
+
+TEST_F(BagOfFour, NumbersTheMessagesOfEachTopic) {
+  const auto header = [](const auto& message) { return message.header; };
+  expectNumbered<sensor_msgs::Image>(bag_, names::kImage, header);
+  expectNumbered<sensor_msgs::CameraInfo>(bag_, names::kCameraInfo, header);
+  expectNumbered<sensor_msgs::Image>(bag_, names::kDepth, header);
+  expectNumbered<evolin_ros::LineArray>(bag_, names::kGroundTruthLines, header);
+  expectNumbered<geometry_msgs::PoseStamped>(bag_, names::kGroundTruthPose, header);
+  expectNumbered<tf2_msgs::TFMessage>(
+      bag_, names::kTf, [](const auto& message) { return message.transforms.at(0).header; });
+}
+
 TEST_F(BagOfFour, HoldsEveryImageBitByBit) {
   const auto images = messagesOf<sensor_msgs::Image>(bag_, names::kImage);
   ASSERT_EQ(images.size(), 4U);

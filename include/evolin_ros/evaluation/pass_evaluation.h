@@ -38,6 +38,7 @@ struct EvaluationUpdate {
   std::vector<PoseRecord> poses;
   std::vector<EvaluationTask> tasks;  ///< to be run, and their results added or the task skipped
   std::vector<std::string> notes;     ///< new ones, for the log
+  std::vector<std::string> warnings;  ///< faults of the input, for the log; each kind is told once
   bool new_pass = false;
 
   void append(EvaluationUpdate other);
@@ -63,6 +64,11 @@ class PassEvaluation {
 
   /// A task of this pass will not be run.
   void skip(const EvaluationTask& task);
+
+  /// A message that cannot belong to any frame counts as a dropped one, a part of a pair as
+  /// skipped. `text` goes to the report's notes; "" when it is there already.
+  void countDroppedFrame(const std::string& text);
+  void countSkippedPair(const std::string& text);
 
   /// The figures so far. With `complete` nothing is waited for any more, and waiting frames are
   /// counted by what they lack.
@@ -116,6 +122,7 @@ class PassEvaluation {
   void fillMotion(bool complete, Report* report) const;
   void fillRepeatability(const MotionEvaluation& motion, Report* report) const;
   void note(const std::string& text, EvaluationUpdate* update);
+  void keepNote(const std::string& text);
   bool betweenDetectedLines(const MatchSet& matches) const;
 
   PassOptions options_;
@@ -134,6 +141,7 @@ class PassEvaluation {
   std::size_t poses_pending_ = 0;
   PairCounts pair_counts_;
   CoverageCounts coverage_;
+  std::size_t dropped_messages_ = 0;  ///< without an entry; in coverage_ all the same
   std::vector<double> detector_times_;
   std::vector<double> associator_times_;
   std::vector<std::string> notes_;

@@ -25,7 +25,8 @@ enum class FrameState {
   kWaiting,  ///< a part may still come
   kEvaluated,
   kUnmatched,  ///< the detector's lines never came
-  kDropped,    ///< a part came after the frame had to leave the full buffer
+  kDropped,    ///< a part came after the frame had to leave the full buffer, or its stamp fits
+               ///< nowhere
   kNoGroundTruth,
   kBadGroundTruth,
   kSkipped  ///< a message was unusable; a note says why
@@ -34,7 +35,8 @@ enum class FrameState {
 /// "evaluated", "no_ground_truth", ... as in Coverage.msg.
 std::string toString(FrameState state);
 
-/// Frames by state; seen is the sum of all others.
+/// Frames by state; seen is the sum of all others. A message that belongs to no frame (without a
+/// stamp, with one that its input has just had, of a pass that is closed) is a dropped one.
 struct CoverageCounts {
   std::size_t seen = 0;
   std::size_t waiting = 0;
@@ -244,5 +246,9 @@ std::string motionsToTum(const Report& report, bool estimated);
 /// (made if missing), each there as a whole or not at all, report.json last. Returns the path of
 /// report.json; throws Error naming the file.
 std::filesystem::path writeReport(const Report& report, const std::filesystem::path& folder);
+
+/// Removes what writeReport has made in `folder`, and the folder when nothing else is in it. What
+/// cannot be removed, or is not there, is left.
+void removeReport(const std::filesystem::path& folder);
 
 }  // namespace evolin

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "evolin_ros/evaluation/pass_evaluation.h"
@@ -16,8 +17,10 @@ namespace evolin {
 /// jump back: that input has begun a new pass. Each input is followed on its own, because the last
 /// parts of a pass may come after another input has begun the next. A stamp merely out of order is
 /// taken where it belongs, at the start of a pass too if another input has had it in this pass; a
-/// stamp that comes twice in a row, or the newest one again, is a duplicate and counts once. The
-/// two newest passes are kept. Not safe for several threads at once.
+/// stamp that comes twice in a row, or the newest one again, is a duplicate: the first is taken.
+/// The two newest passes are kept. What cannot be taken (duplicates, stamp 0, parts of an older
+/// pass) is counted as dropped, of matches as skipped, and warned of; only images, which bring
+/// nothing but their stamp, leave no trace. Not safe for several threads at once.
 class StreamEvaluator {
  public:
   explicit StreamEvaluator(PassOptions options = {});
@@ -62,8 +65,10 @@ class StreamEvaluator {
  private:
   enum Input { kImage, kLines, kGroundTruth, kMatches, kDepth, kPose, kInputs };
   using Key = std::pair<Stamp, Stamp>;  ///< second stamp, first stamp (0 where there is one only)
+  enum Fault { kNoStamp, kRepeated, kPassClosed, kSeveralSources };
   struct Follower {
     int pass = 0;  ///< 0: nothing heard
+    std::string source;
     Key last;
     std::set<Key> received;
   };
@@ -76,12 +81,15 @@ class StreamEvaluator {
   /// Fills in where the update's tasks come from.
   EvaluationUpdate marked(EvaluationUpdate update, int pass) const;
   template <class Add>
-  EvaluationUpdate add(Input input, Key key, const Add& add);
+  EvaluationUpdate add(Input input, Key key, const std::string& source, const Add& add);
   PassEvaluation* passOf(std::uint64_t generation, int pass);
-  PassEvaluation* enter(Input input, Key key, EvaluationUpdate* update);
+  PassEvaluation* enter(Input input, Key key, const std::string& source, EvaluationUpdate* update);
+  void drop(Input input, Fault fault, const std::string& what, EvaluationUpdate* update);
 
   PassOptions options_;
   std::array<Follower, kInputs> followers_;
+  std::set<std::pair<Input, Fault>> told_;
+  std::set<std::pair<Input, Fault>> noted_;  ///< in the newest pass's report
   std::map<int, PassEvaluation> passes_;
   std::optional<Report> released_;
   int newest_ = 1;
