@@ -63,12 +63,12 @@ class SyntheticSequence::Names {
  public:
   explicit Names(std::size_t edges) : parts_(edges) {}
 
-  /// Of the lines of frame `number`; `linesOf(n)` gives those of any frame.
+  /// Of the lines of frame `number`; `lines_of(n)` gives those of any frame.
   template <typename LinesOf>
-  std::vector<std::uint32_t> ofFrame(std::size_t number, const LinesOf& linesOf) {
+  std::vector<std::uint32_t> ofFrame(std::size_t number, const LinesOf& lines_of) {
     const std::lock_guard<std::mutex> lock(mutex_);
     while (frames_.size() <= number) {
-      frames_.push_back(parts_.nextFrame(linesOf(frames_.size())));
+      frames_.push_back(parts_.nextFrame(lines_of(frames_.size())));
     }
     return frames_[number];
   }
@@ -97,12 +97,12 @@ Pose SyntheticSequence::pose(std::size_t number) const {
 }
 
 LineSegments SyntheticSequence::groundTruth(std::size_t number) const {
-  const auto linesOf = [this](std::size_t frame) {
+  const auto lines_of = [this](std::size_t frame) {
     return visibleLines(scene_, camera_, pose(frame));
   };
-  const std::vector<VisibleLine> visible = linesOf(number);
+  const std::vector<VisibleLine> visible = lines_of(number);
   const std::vector<std::uint32_t> parts = names_->ofFrame(
-      number, [&](std::size_t frame) { return frame == number ? visible : linesOf(frame); });
+      number, [&](std::size_t frame) { return frame == number ? visible : lines_of(frame); });
   LineSegments lines;
   for (std::size_t i = 0; i < visible.size(); ++i) {
     lines.push_back(visible[i].line);
