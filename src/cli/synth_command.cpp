@@ -150,11 +150,12 @@ std::string describeSequence(const synthetic::SyntheticOptions& options) {
 
 std::string describeEdges(const synthetic::Scene& scene) {
   std::string text =
-      "# physical edges: id x1 y1 z1 x2 y2 z2 (metres, world); the id is the one in "
-      "gt_ids/\n";
-  for (std::size_t id = 0; id < scene.edges.size(); ++id) {
-    const synthetic::Edge& edge = scene.edges[id];
-    text += std::to_string(id);
+      "# physical edges: number x1 y1 z1 x2 y2 z2 (metres, world); the edge of an id of gt_ids/ is "
+      "the id modulo " +
+      std::to_string(scene.edges.size()) + "\n";
+  for (std::size_t number = 0; number < scene.edges.size(); ++number) {
+    const synthetic::Edge& edge = scene.edges[number];
+    text += std::to_string(number);
     for (const synthetic::Vector3* end : {&edge.from, &edge.to}) {
       for (int axis = 0; axis < 3; ++axis) {
         text += " " + formatDouble((*end)[axis]);

@@ -158,7 +158,7 @@ TEST_F(SynthTest, BagHasTheSameFrames) {
       EXPECT_EQ(std::memcmp(image->data.data(), pixels.data, image->data.size()), 0);
     } else if (message.getTopic() == topics::kGroundTruthLines) {
       const auto lines = message.instantiate<evolin_ros::LineArray>();
-      const LineSegments given = expected.groundTruth(numberOf(lines->header)).lines;
+      const LineSegments given = expected.groundTruth(numberOf(lines->header));
       ASSERT_EQ(lines->lines.size(), given.size());
       for (std::size_t row = 0; row < given.size(); ++row) {
         EXPECT_EQ(lines->lines[row].id, given[row].id);

@@ -115,7 +115,7 @@ TEST(SyntheticFrames, VisiblePartsLieOnTheDepthImage) {
   std::size_t samples = 0;
   std::size_t off = 0;
   for (const LineSegment& line : *frame().ground_truth) {
-    const Edge& edge = sequence().scene().edges[static_cast<std::size_t>(line.id)];
+    const Edge& edge = sequence().scene().edges[sequence().edgeOf(line.id)];
     const double length = line.length();
     for (double along = 0.5; along < length; along += 1) {
       const double x = line.x1 + along / length * (line.x2 - line.x1);

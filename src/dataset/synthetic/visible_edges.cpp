@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "evolin_ros/dataset/synthetic/renderer.h"
 #include "projected_surface.h"
+#include "twin_lines.h"
 
 namespace evolin::synthetic {
 
@@ -16,7 +16,7 @@ namespace {
 /// An edge lies in the planes of its own surfaces up to rounding; what is hidden lies deeper.
 constexpr double kBehind = 1e-6;  // m
 
-/// A surface that faces the camera, in camera coordinates.
+/// A surface that faces the eye; the eye is the origin.
 struct Occluder {
   Vector3 normal;
   double offset = 0;           ///< normal . x of its plane, below 0
@@ -58,19 +58,17 @@ std::optional<EdgePart> partInView(const Segment& edge, const Camera& camera) {
   return std::nullopt;
 }
 
-std::vector<Occluder> occludersOf(const Scene& scene, const View& view) {
+std::vector<Occluder> occludersOf(const Scene& scene, const Vector3& eye) {
   std::vector<Occluder> occluders;
   for (const Surface& surface : scene.surfaces) {
     Occluder occluder;
-    occluder.normal = view.rotation * scene.patches[surface.patch].normal();
+    occluder.normal = scene.patches[surface.patch].normal();
     std::vector<Vector3> corners;
-    bool in_front = false;
     for (const Vector3& corner : surface.corners) {
-      corners.push_back(view.toCamera(corner));
-      in_front = in_front || corners.back().z() > Renderer::kNearPlane;
+      corners.emplace_back(corner - eye);
     }
     occluder.offset = occluder.normal.dot(corners.front());
-    if (occluder.offset >= 0 || !in_front) {
+    if (occluder.offset >= 0) {
       continue;
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -82,74 +80,60 @@ std::vector<Occluder> occludersOf(const Scene& scene, const View& view) {
   return occluders;
 }
 
-/// The part of `within` that the surface hides.
-std::optional<EdgePart> hiddenPart(const Segment& edge, const Occluder& occluder, EdgePart within) {
+std::optional<EdgePart> hiddenPart(const Segment& edge, const Occluder& occluder) {
+  EdgePart hidden;
   if (!keepPositive(occluder.offset - kBehind - occluder.normal.dot(edge.from),
-                    occluder.offset - kBehind - occluder.normal.dot(edge.to), &within)) {
+                    occluder.offset - kBehind - occluder.normal.dot(edge.to), &hidden)) {
     return std::nullopt;
   }
   for (const Vector3& side : occluder.sides) {
-    if (!keepPositive(side.dot(edge.from), side.dot(edge.to), &within)) {
+    if (!keepPositive(side.dot(edge.from), side.dot(edge.to), &hidden)) {
       return std::nullopt;
     }
   }
-  return within;
+  return hidden;
 }
 
-std::vector<EdgePart> complement(const EdgePart& whole, std::vector<EdgePart> hidden) {
-  std::sort(hidden.begin(), hidden.end(),
-            [](const EdgePart& a, const EdgePart& b) { return a.begin < b.begin; });
-  std::vector<EdgePart> parts;
-  double reached = whole.begin;
-  for (const EdgePart& part : hidden) {
-    if (part.begin > reached) {
-      parts.push_back({reached, part.begin});
+struct SeenPart {
+  EdgePart exposed;
+  EdgePart seen;  ///< what the view leaves of it
+};
+
+/// The view is convex: every exposed part is seen in at most one piece.
+std::vector<SeenPart> seenParts(const Edge& edge, const std::vector<EdgePart>& exposed,
+                                const View& view) {
+  std::vector<SeenPart> parts;
+  if (const std::optional<EdgePart> in_view =
+          partInView({view.toCamera(edge.from), view.toCamera(edge.to)}, view.camera)) {
+    for (const EdgePart& part : exposed) {
+      const EdgePart seen{std::max(part.begin, in_view->begin), std::min(part.end, in_view->end)};
+      if (seen.begin < seen.end) {
+        parts.push_back({part, seen});
+      }
     }
-    reached = std::max(reached, part.end);
-  }
-  if (reached < whole.end) {
-    parts.push_back({reached, whole.end});
   }
   return parts;
 }
 
-LineSegment project(const Edge& edge, const EdgePart& part, const View& view) {
+ProjectedPart project(const Edge& edge, const SeenPart& part, const View& view) {
   const Vector3 span = edge.to - edge.from;
-  const Eigen::Vector2d a = view.toPixel(view.toCamera(edge.from + part.begin * span));
-  const Eigen::Vector2d b = view.toPixel(view.toCamera(edge.from + part.end * span));
+  const Vector3 from = view.toCamera(edge.from + part.seen.begin * span);
+  const Vector3 to = view.toCamera(edge.from + part.seen.end * span);
+  const Eigen::Vector2d a = view.toPixel(from);
+  const Eigen::Vector2d b = view.toPixel(to);
   LineSegment line;
   line.x1 = a.x();
   line.y1 = a.y();
   line.x2 = b.x();
   line.y2 = b.y();
-  const Rectangle area = annotatedArea(view.camera);
-  return clampToRectangle(line, area);  // rounding must not carry an end out of it
-}
-
-double distanceToSegment(double x, double y, const LineSegment& line) {
-  const double dx = line.x2 - line.x1;
-  const double dy = line.y2 - line.y1;
-  const double share =
-      std::clamp(((x - line.x1) * dx + (y - line.y1) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-  return std::hypot(x - line.x1 - share * dx, y - line.y1 - share * dy);
-}
-
-/// Takes away lines with both ends near a longer line and returns how many.
-std::size_t removeTwins(LineSegments* lines) {
-  const auto isTwin = [lines](const LineSegment& line) {
-    return std::any_of(lines->begin(), lines->end(), [&line](const LineSegment& other) {
-      const bool longer =
-          other.length() > line.length() || (other.length() == line.length() && other.id < line.id);
-      return longer && distanceToSegment(line.x1, line.y1, other) < kTwinDistance &&
-             distanceToSegment(line.x2, line.y2, other) < kTwinDistance;
-    });
-  };
-  LineSegments kept;
-  std::copy_if(lines->begin(), lines->end(), std::back_inserter(kept),
-               [&isTwin](const LineSegment& line) { return !isTwin(line); });
-  const std::size_t removed = lines->size() - kept.size();
-  *lines = std::move(kept);
-  return removed;
+  ProjectedPart projected;
+  // Rounding must not carry an end out of the area.
+  projected.line = clampToRectangle(line, annotatedArea(view.camera));
+  projected.exposed = part.exposed;
+  projected.seen = part.seen;
+  projected.depth1 = from.z();
+  projected.depth2 = to.z();
+  return projected;
 }
 
 }  // namespace
@@ -160,55 +144,51 @@ Rectangle annotatedArea(const Camera& camera) {
           std::min(camera.height - 1.0, camera.height * kShare)};
 }
 
-std::vector<std::vector<EdgePart>> visibleParts(const Scene& scene, const Camera& camera,
-                                                const Pose& camera_to_world) {
-  const View view(camera, camera_to_world);
-  const std::vector<Occluder> occluders = occludersOf(scene, view);
-  std::vector<std::vector<EdgePart>> visible(scene.edges.size());
-  for (std::size_t i = 0; i < scene.edges.size(); ++i) {
-    const Segment edge{view.toCamera(scene.edges[i].from), view.toCamera(scene.edges[i].to)};
-    const std::optional<EdgePart> in_view = partInView(edge, camera);
-    if (!in_view) {
-      continue;
-    }
+std::vector<std::vector<EdgePart>> exposedParts(const Scene& scene, const Vector3& eye) {
+  const std::vector<Occluder> occluders = occludersOf(scene, eye);
+  std::vector<std::vector<EdgePart>> exposed;
+  exposed.reserve(scene.edges.size());
+  for (const Edge& edge : scene.edges) {
+    const Segment seen{edge.from - eye, edge.to - eye};
     std::vector<EdgePart> hidden;
     for (const Occluder& occluder : occluders) {
-      if (const std::optional<EdgePart> part = hiddenPart(edge, occluder, *in_view)) {
+      if (const std::optional<EdgePart> part = hiddenPart(seen, occluder)) {
         hidden.push_back(*part);
       }
     }
-    visible[i] = complement(*in_view, std::move(hidden));
+    exposed.push_back(complement(EdgePart(), std::move(hidden)));
+  }
+  return exposed;
+}
+
+std::vector<std::vector<EdgePart>> visibleParts(const Scene& scene, const Camera& camera,
+                                                const Pose& camera_to_world) {
+  const View view(camera, camera_to_world);
+  const std::vector<std::vector<EdgePart>> exposed = exposedParts(scene, view.centre);
+  std::vector<std::vector<EdgePart>> visible(scene.edges.size());
+  for (std::size_t i = 0; i < scene.edges.size(); ++i) {
+    for (const SeenPart& part : seenParts(scene.edges[i], exposed[i], view)) {
+      visible[i].push_back(part.seen);
+    }
   }
   return visible;
 }
 
-VisibleLines visibleLines(const Scene& scene, const Camera& camera, const Pose& camera_to_world) {
+std::vector<VisibleLine> visibleLines(const Scene& scene, const Camera& camera,
+                                      const Pose& camera_to_world) {
   const View view(camera, camera_to_world);
-  const std::vector<std::vector<EdgePart>> parts = visibleParts(scene, camera, camera_to_world);
-  VisibleLines result;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    LineSegment best;
-    double best_length = 0;
-    std::size_t long_enough = 0;
-    for (const EdgePart& part : parts[i]) {
-      const LineSegment line = project(scene.edges[i], part, view);
-      if (line.length() < kMinLength) {
-        continue;
+  const std::vector<std::vector<EdgePart>> exposed = exposedParts(scene, view.centre);
+  std::vector<ProjectedPart> parts;
+  for (std::size_t i = 0; i < scene.edges.size(); ++i) {
+    for (const SeenPart& part : seenParts(scene.edges[i], exposed[i], view)) {
+      ProjectedPart projected = project(scene.edges[i], part, view);
+      if (projected.line.length() >= kMinLength) {
+        projected.edge = i;
+        parts.push_back(projected);
       }
-      ++long_enough;
-      if (line.length() > best_length) {
-        best = line;
-        best_length = line.length();
-      }
-    }
-    if (long_enough > 0) {
-      best.id = static_cast<std::int64_t>(i);
-      result.lines.push_back(best);
-      result.parts_left_out += long_enough - 1;
     }
   }
-  result.twins_left_out = removeTwins(&result.lines);
-  return result;
+  return withoutTwins(std::move(parts));
 }
 
 }  // namespace evolin::synthetic

@@ -80,7 +80,6 @@ struct AreaLight {
   Color power = Color(1, 1, 1);  ///< light on a white surface at 1 m, facing it
 };
 
-/// The place of an edge in `edges` is its id.
 struct Scene {
   Vector3 size = Vector3::Zero();  ///< of the room
   std::vector<Patch> patches;

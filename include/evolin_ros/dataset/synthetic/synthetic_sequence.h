@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "evolin_ros/dataset/sequence_reader.h"
 #include "evolin_ros/dataset/synthetic/renderer.h"
@@ -30,6 +31,7 @@ class SyntheticSequence {
  public:
   /// Throws as validate().
   explicit SyntheticSequence(const SyntheticOptions& options);
+  ~SyntheticSequence();
   SyntheticSequence(const SyntheticSequence&) = delete;
   SyntheticSequence& operator=(const SyntheticSequence&) = delete;
 
@@ -44,16 +46,27 @@ class SyntheticSequence {
   /// Camera to world, exact.
   Pose pose(std::size_t number) const;
 
-  VisibleLines groundTruth(std::size_t number) const;
+  /// The lines of visibleLines() by rising id. An id names one visible part of one edge, the same
+  /// over the sequence for as long as the part can be followed; edgeOf() gives the edge. Ids are
+  /// handed on from frame to frame, so the first call for a frame far ahead takes the time of the
+  /// lines of all frames before it. Safe for any number of threads.
+  LineSegments groundTruth(std::size_t number) const;
+
+  /// The place in scene().edges of the edge that a ground-truth id is a part of: the id modulo
+  /// their number.
+  std::size_t edgeOf(std::int64_t id) const;
 
   /// Image, depth (CV_32FC1), pose, camera and ground truth; the costly one.
   SequenceFrame frame(std::size_t number) const;
 
  private:
+  class Names;
+
   SyntheticOptions options_;
   Scene scene_;
   Camera camera_;
   Renderer renderer_;
+  std::unique_ptr<Names> names_;
 };
 
 }  // namespace evolin::synthetic

@@ -24,24 +24,30 @@ struct EdgePart {
 /// stays itself.
 Rectangle annotatedArea(const Camera& camera);
 
-/// For every edge of the scene its visible parts, in order: before the near plane, inside the
-/// annotated area and hidden by no surface. Exact: a convex surface hides one interval of an edge,
-/// the one inside the surface's pyramid of sight and behind its plane.
+/// For every edge of the scene the parts that no surface hides from an eye at `eye`, whichever way
+/// it looks, in order. Exact: a convex surface hides one interval of an edge, the one inside the
+/// surface's pyramid of sight and behind its plane.
+std::vector<std::vector<EdgePart>> exposedParts(const Scene& scene, const Vector3& eye);
+
+/// For every edge of the scene its visible parts, in order: exposed, before the near plane and
+/// inside the annotated area.
 std::vector<std::vector<EdgePart>> visibleParts(const Scene& scene, const Camera& camera,
                                                 const Pose& camera_to_world);
 
-struct VisibleLines {
-  LineSegments lines;              ///< by rising id, at most one an edge
-  std::size_t parts_left_out = 0;  ///< long enough, but not the longest of their edge
-  std::size_t twins_left_out = 0;  ///< lines that run within kTwinDistance of a longer one
+/// A ground-truth line and where it comes from.
+struct VisibleLine {
+  LineSegment line;  ///< without an id
+  std::size_t edge = 0;
+  EdgePart reach;  ///< what is seen of the edge, and beyond the picture's border what is exposed
 };
 
-/// Projections of the visible parts of at least kMinLength pixels; `id` is the edge's. Of an edge
-/// that is seen in several parts the longest alone is taken, because an id names one line of a
-/// frame. All physical edges count, also those whose two sides happen to be equally bright, but for
-/// lines that run within kTwinDistance of a longer one all their way, as at the far side of a face
-/// that is seen edge-on: no detector could tell the two apart.
-VisibleLines visibleLines(const Scene& scene, const Camera& camera, const Pose& camera_to_world);
+/// Projections of all visible parts of at least kMinLength pixels, by edge and along it; point 1 is
+/// the end towards the edge's `from`. All physical edges count, also those whose two sides happen
+/// to be equally bright, but for twins: where lines of different edges run within kTwinDistance of
+/// each other for at least kMinLength, as at the far side of a face that is seen edge-on, no
+/// detector could tell them apart, and that stretch is taken away from the shorter line.
+std::vector<VisibleLine> visibleLines(const Scene& scene, const Camera& camera,
+                                      const Pose& camera_to_world);
 
 constexpr double kMinLength = 10;    ///< px
 constexpr double kTwinDistance = 2;  ///< px
