@@ -134,9 +134,10 @@ Method makeMethod(const Request& request) {
   return method;
 }
 
-DepthImage readDepth(const Request& request, const std::filesystem::path& file) {
-  // In stored units: metres in single precision would lose digits.
-  return {readDepthImage(file, 1), request.depth_factor};
+LiftedLines liftFrame(const Request& request, const Method& method, const Camera& camera,
+                      const PoseFrame& frame) {
+  const DepthMap depth(readStoredDepth(frame.depth), request.depth_factor);
+  return liftEndpoints(frame.stem, readLinesCsv(frame.lines), depth, camera, method.endpoints);
 }
 
 std::optional<PoseErrors> errorsOf(const RelativePose& estimate, const Pose& truth,
@@ -149,9 +150,9 @@ PosePair measurePair(const Request& request, const Method& method, const Camera&
                      const std::filesystem::path& associations) {
   SpatialMatches matches;
   try {
-    matches = liftMatches(readLinesCsv(first.lines), readDepth(request, first.depth),
-                          readLinesCsv(second.lines), readDepth(request, second.depth),
-                          readIndexPairsCsv(associations), camera, method.endpoints);
+    matches =
+        liftedMatches(liftFrame(request, method, camera, first),
+                      liftFrame(request, method, camera, second), readIndexPairsCsv(associations));
   } catch (const ParseError&) {
     throw;
   } catch (const Error& error) {

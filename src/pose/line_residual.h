@@ -13,7 +13,7 @@ namespace evolin {
 /// Homogeneous image line through a segment's ends, in pixels: the cross product of the two, so
 /// that its value at a pixel is the distance times the segment's length; `normalised`: the distance
 /// alone (a segment without length then gives a line that is not finite).
-inline Eigen::Vector3d imageLine(const SpatialLine& line, bool normalised) {
+inline Eigen::Vector3d imageLine(const LiftedLine& line, bool normalised) {
   const Eigen::Vector3d result = line.pixel1.homogeneous().cross(line.pixel2.homogeneous());
   return normalised ? Eigen::Vector3d(result / result.head<2>().norm()) : result;
 }

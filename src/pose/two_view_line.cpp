@@ -12,8 +12,8 @@ std::vector<TwoViewLine> makeTwoViewLines(const SpatialMatches& matches) {
   std::vector<TwoViewLine> lines;
   lines.reserve(matches.size());
   for (std::size_t place = 0; place < matches.size(); ++place) {
-    const SpatialLine& first = matches[place].first;
-    const SpatialLine& second = matches[place].second;
+    const LiftedLine& first = matches[place].first;
+    const LiftedLine& second = matches[place].second;
     TwoViewLine line;
     line.forward = {{first.point1, first.point2}, imageLine(second, true)};
     line.backward = {{second.point1, second.point2}, imageLine(first, true)};

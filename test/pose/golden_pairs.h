@@ -46,8 +46,8 @@ inline Pose poseFromJson(const nlohmann::json& rows) {
   return pose;
 }
 
-inline SpatialLine lineFromJson(const nlohmann::json& pixels, const nlohmann::json& points) {
-  SpatialLine line;
+inline LiftedLine lineFromJson(const nlohmann::json& pixels, const nlohmann::json& points) {
+  LiftedLine line;
   for (int axis = 0; axis < 2; ++axis) {
     line.pixel1[axis] = pixels[0][axis].get<double>();
     line.pixel2[axis] = pixels[1][axis].get<double>();

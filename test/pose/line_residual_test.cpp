@@ -95,7 +95,7 @@ TEST_P(Jacobians, OfBothViewsEqualNumericOnes) {
 INSTANTIATE_TEST_SUITE_P(EitherImageAxis, Jacobians, ::testing::Values(480.0, -480.0));
 
 TEST(LineResidual, IsThePixelDistanceTimesTheLength) {
-  SpatialLine line;
+  LiftedLine line;
   line.pixel1 = {100, 50};
   line.pixel2 = {300, 50};
   const Camera pinhole = camera(480);

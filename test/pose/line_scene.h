@@ -72,7 +72,7 @@ inline SpatialMatches observe(const std::vector<Segment3>& segments, const Pose&
     match.first.point2 = segment.b;
     match.second.point1 = motion.rotation * (segment.a + shift) + motion.translation;
     match.second.point2 = motion.rotation * (segment.b - shift) + motion.translation;
-    for (SpatialLine* line : {&match.first, &match.second}) {
+    for (LiftedLine* line : {&match.first, &match.second}) {
       line->pixel1 = projectPoint(camera, line->point1);
       line->pixel2 = projectPoint(camera, line->point2);
     }
@@ -91,7 +91,7 @@ inline void addNoise(double pixels, const Camera& camera, RandomLines* random,
     *point = backProjectPoint(camera, *pixel, point->z());
   };
   for (SpatialMatch& match : *matches) {
-    for (SpatialLine* line : {&match.first, &match.second}) {
+    for (LiftedLine* line : {&match.first, &match.second}) {
       move(&line->pixel1, &line->point1);
       move(&line->pixel2, &line->point2);
     }
@@ -112,7 +112,7 @@ inline std::vector<bool> makeWrong(double share, RandomLines* random, SpatialMat
   if (count < 2) {
     return wrong;
   }
-  const SpatialLine spare = (*matches)[order[0]].second;
+  const LiftedLine spare = (*matches)[order[0]].second;
   for (std::size_t i = 0; i < count; ++i) {
     (*matches)[order[i]].second = i + 1 < count ? (*matches)[order[i + 1]].second : spare;
     wrong[order[i]] = true;

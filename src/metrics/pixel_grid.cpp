@@ -1,0 +1,31 @@
+// Numbering cells and listing a disc.
+#include "pixel_grid.h"
+
+#include <algorithm>
+
+namespace evolin {
+
+PixelGrid::PixelGrid(ImageSize size, int reach) : reach_(reach) {
+  constexpr Cell kBits = 64;
+  const Cell width = static_cast<Cell>(size.width) + 2 * static_cast<Cell>(reach);
+  const Cell height = static_cast<Cell>(size.height) + 2 * static_cast<Cell>(reach);
+  stride_ = (width + kBits - 1) / kBits * kBits;
+  cells_ = static_cast<std::size_t>(stride_) * height;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    int half = 0;
+    while ((half + 1) * (half + 1) + dy * dy <= reach * reach) {
+      ++half;
+    }
+    const Cell row_offset = static_cast<Cell>(dy) * stride_;  // wraps above the centre
+    rows_.push_back({row_offset - static_cast<Cell>(half), 2 * static_cast<Cell>(half) + 1,
+                     static_cast<std::uint32_t>(dy * dy)});
+    for (int dx = -half; dx <= half; ++dx) {
+      nearest_first_.push_back(
+          {row_offset + static_cast<Cell>(dx), static_cast<std::uint32_t>(dx * dx + dy * dy)});
+    }
+  }
+  std::stable_sort(nearest_first_.begin(), nearest_first_.end(),
+                   [](const DiscCell& a, const DiscCell& b) { return a.squared < b.squared; });
+}
+
+}  // namespace evolin

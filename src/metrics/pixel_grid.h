@@ -1,0 +1,141 @@
+// Pixels of one image as numbered cells, sets of them as bits, and discs around them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "evolin_ros/geometry/image_size.h"
+#include "evolin_ros/metrics/rasterization.h"
+
+namespace evolin {
+
+/// A pixel's number. Rows are padded to whole words of bits and to `reach` cells on every side, so
+/// that a disc around a pixel never leaves the grid.
+using Cell = std::uint32_t;
+
+/// The geometry that all sets of one image share.
+class PixelGrid {
+ public:
+  /// A row of the disc: `length` cells from `first` cells after the centre on (wraps for rows
+  /// above).
+  struct DiscRow {
+    Cell first;
+    Cell length;
+    std::uint32_t dy_squared;
+  };
+  /// A cell of the disc, relative to its centre (wraps), and its squared distance.
+  struct DiscCell {
+    Cell offset;
+    std::uint32_t squared;
+  };
+
+  PixelGrid(ImageSize size, int reach);
+
+  std::size_t cells() const { return cells_; }
+  int reach() const { return reach_; }
+  Cell cell(const Pixel& pixel) const {
+    return static_cast<Cell>(pixel.y + reach_) * stride_ + static_cast<Cell>(pixel.x + reach_);
+  }
+  const std::vector<DiscRow>& discRows() const { return rows_; }
+  const std::vector<DiscCell>& nearestFirst() const { return nearest_first_; }
+
+ private:
+  int reach_;
+  Cell stride_;
+  std::size_t cells_;
+  std::vector<DiscRow> rows_;
+  std::vector<DiscCell> nearest_first_;
+};
+
+/// A set of cells, one bit each.
+class CellSet {
+ public:
+  explicit CellSet(const PixelGrid& grid) : words_(grid.cells() / kBits + 1) {}
+
+  void insert(Cell cell) { words_[cell / kBits] |= bit(cell); }
+  void erase(Cell cell) { words_[cell / kBits] &= ~bit(cell); }
+  bool contains(Cell cell) const { return (words_[cell / kBits] & bit(cell)) != 0; }
+
+  /// Whether any cell within the reach of `centre` is in the set.
+  bool anyNear(const PixelGrid& grid, Cell centre) const {
+    std::uint64_t found = 0;
+    for (const PixelGrid::DiscRow& row : grid.discRows()) {
+      for (Cell done = 0; done < row.length; done += kBits) {
+        found |= bits(centre + row.first + done, row.length - done);
+      }
+    }
+    return found != 0;
+  }
+
+  /// Calls visit(cell, squared distance) for the set's cells within the reach of `centre`; stops
+  /// when it returns false. `visit` may erase the cell that it was called with.
+  template <typename Visit>
+  void forEachNear(const PixelGrid& grid, Cell centre, const Visit& visit) const {
+    for (const PixelGrid::DiscRow& row : grid.discRows()) {
+      const Cell first = centre + row.first;
+      for (Cell done = 0; done < row.length; done += kBits) {
+        std::uint64_t found = bits(first + done, row.length - done);
+        for (; found != 0; found &= found - 1) {
+          const Cell place = done + static_cast<Cell>(__builtin_ctzll(found));
+          const std::int32_t dx =
+              static_cast<std::int32_t>(place) - static_cast<std::int32_t>(row.length / 2);
+          if (!visit(first + place, row.dy_squared + static_cast<std::uint32_t>(dx * dx))) {
+            return;
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr Cell kBits = 64;
+
+  static std::uint64_t bit(Cell cell) { return std::uint64_t{1} << (cell % kBits); }
+
+  /// Bit i: whether cell begin + i is in the set; of the first `length` cells, at most 64.
+  std::uint64_t bits(Cell begin, Cell length) const {
+    const Cell word = begin / kBits;
+    const Cell shift = begin % kBits;
+    // Two shifts, as one by 64 is undefined.
+    const std::uint64_t window = (words_[word] >> shift) | (words_[word + 1] << 1U << (63 - shift));
+    return length >= kBits ? window : window & ((std::uint64_t{1} << length) - 1);
+  }
+
+  friend class IndexedCells;
+
+  std::vector<std::uint64_t> words_;
+};
+
+/// A fixed set of cells, numbered from 0 by rows.
+class IndexedCells {
+ public:
+  IndexedCells(const PixelGrid& grid, const Pixels& pixels) : set_(grid) {
+    for (const Pixel& pixel : pixels) {
+      set_.insert(grid.cell(pixel));
+    }
+    ranks_.reserve(set_.words_.size());
+    for (const std::uint64_t word : set_.words_) {
+      ranks_.push_back(static_cast<std::uint32_t>(size_));
+      size_ += static_cast<std::size_t>(__builtin_popcountll(word));
+    }
+  }
+
+  const CellSet& set() const { return set_; }
+  std::size_t size() const { return size_; }
+
+  /// The number of a cell of the set.
+  std::uint32_t index(Cell cell) const {
+    const std::uint64_t below = CellSet::bit(cell) - 1;
+    const Cell word = cell / CellSet::kBits;
+    return ranks_[word] +
+           static_cast<std::uint32_t>(__builtin_popcountll(set_.words_[word] & below));
+  }
+
+ private:
+  CellSet set_;
+  std::vector<std::uint32_t> ranks_;  ///< cells of the set before each word
+  std::size_t size_ = 0;
+};
+
+}  // namespace evolin
