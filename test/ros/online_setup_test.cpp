@@ -25,8 +25,9 @@ TEST(OnlineSetup, WithoutGroundTruthThereIsNoFigure) {
   expectCoverage(report, 12, 0, {{"no_ground_truth", 12}});
   const nlohmann::json& detection = report.at("detection");
   EXPECT_EQ(detection.at("frames"), 0);
-  EXPECT_TRUE(detection.at("entries").at(0).at("f_score").is_null());
-  EXPECT_EQ(detection.at("reason"), "not evaluated: no frame had both lines and ground truth");
+  const nlohmann::json& entry = detection.at("entries").at(0);
+  EXPECT_TRUE(entry.at("f_score").is_null());
+  EXPECT_EQ(entry.at("reason"), "no frame was evaluated");
 }
 
 TEST(OnlineSetup, GroundTruthOfAThirdOfTheFramesCountsThatThird) {
@@ -162,9 +163,8 @@ TEST(OnlineSetup, TwoFrontEndsOnOneTopicAreNamed) {
   // Two nodelets of another manager are two publishers, though but one node.
   Manager other(space + "/other");
   SequencePublisher publisher(space);
-  for (const char* detector : {"opencv_lsd", "hough_p"}) {
-    const std::string name = std::string("detector_") + detector;
-    ros::param::set(other.space() + "/" + name + "/detector", detector);
+  for (const std::string name : {"left", "right"}) {
+    ros::param::set(other.space() + "/" + name + "/source", "lsd of the " + name);
     ros::param::set(other.space() + "/" + name + "/lazy", false);
     ASSERT_TRUE(other.load(name, "evolin_ros/LineDetector",
                            {{"image", space + "/image"}, {"lines", space + "/lines"}}));
@@ -181,11 +181,14 @@ TEST(OnlineSetup, TwoFrontEndsOnOneTopicAreNamed) {
   EXPECT_TRUE(log.waitFor(
       rosgraph_msgs::Log::WARN,
       {space + "/lines (publishers: 1)", "a second message of stamp 1305031453.359684 s",
-       "'opencv_lsd'", "'hough_p'", "does more than one node publish here?"}));
+       "'lsd of the left'", "'lsd of the right'", "does more than one node publish here?"}));
   // Which one comes first in a frame is chance; that one counts, the other is dropped.
   const nlohmann::json report = readReport(folder.path() / "report.json");
   EXPECT_EQ(report.at("pass"), 1);
   expectCoverage(report, 24, 12, {{"dropped", 12}});
+  Methods methods;
+  methods.associator = "";
+  expectDetection(report, evaluateInProcess(frames, methods));
 }
 
 TEST(OnlineSetup, InterleavedPublishersAreNamed) {

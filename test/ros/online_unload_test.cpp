@@ -74,10 +74,10 @@ TEST(OnlineUnload, ADetectionThatRunsEndsInPeace) {
   const std::string& space = manager.space();
   SequencePublisher publisher(space);
   Collector<evolin_ros::LineArray> lines(space + "/lines");
-  for (int round = 1; round <= 3; ++round) {
+  for (int round = 1; round <= 2; ++round) {
     SCOPED_TRACE("round " + std::to_string(round));
     ros::param::set(space + "/slow/detector", "test_slow");
-    ros::param::set(space + "/slow/parameters/seconds", 0.6);
+    ros::param::set(space + "/slow/parameters/seconds", 0.5);
     ASSERT_TRUE(manager.load("slow", "evolin_ros/LineDetector"));
     ASSERT_TRUE(publisher.waitForListeners(1, 0, 0));
     const Camera30 camera(&publisher);
@@ -89,7 +89,7 @@ TEST(OnlineUnload, ADetectionThatRunsEndsInPeace) {
     // At 30 frames a second the slow one's last detection ends long before these have come.
     ASSERT_TRUE(manager.load("quick", "evolin_ros/LineDetector"));
     const std::size_t begun = lines.count();
-    ASSERT_TRUE(lines.waitForCount(begun + 45));
+    ASSERT_TRUE(lines.waitForCount(begun + 25));
     expectAlive(&manager);
     ASSERT_TRUE(manager.unload("quick"));
   }
