@@ -124,28 +124,28 @@ TEST(OnlineBag, GivesTheReportOfAnEvaluationInProcess) {
   EXPECT_EQ(report.at("timing").at("associator").at("frames"), 11);
 }
 
-DrawnSequence sixtyFrames() {
+DrawnSequence fortyFrames() {
   DrawnSequence sequence;
-  sequence.frames = 60;
+  sequence.frames = 40;
   return sequence;
 }
 
 TEST(OnlineBag, AtTenTimesTheSpeedTheReportIsTheSame) {
-  const std::vector<SequenceFrame> frames = drawSequence(sixtyFrames());
+  const std::vector<SequenceFrame> frames = drawSequence(fortyFrames());
   const TemporaryFolder folder;
   writeBag(frames, folder.path() / "drawn.bag");
   ros::param::set(testNamespace() + "/player/rate", 10.0);
   BagRun run(folder.path() / "drawn.bag", "opencv_lsd");
   const nlohmann::json report = run.play();
   const Expected expected = evaluateInProcess(frames);
-  ASSERT_EQ(expected.pairs.size(), 59U);
+  ASSERT_EQ(expected.pairs.size(), 39U);
   expectWholeReport(report, expected);
-  EXPECT_EQ(report.at("coverage").at("input_images"), 60);
+  EXPECT_EQ(report.at("coverage").at("input_images"), 40);
   EXPECT_EQ(report.at("provenance").at("parameters").at("input").at("rate"), 10);
 }
 
 TEST(OnlineBag, APauseIsNoEnd) {
-  const std::vector<SequenceFrame> frames = drawSequence(sixtyFrames());
+  const std::vector<SequenceFrame> frames = drawSequence(fortyFrames());
   const TemporaryFolder folder;
   writeBag(frames, folder.path() / "drawn.bag");
   const std::string space = testNamespace();
@@ -165,7 +165,7 @@ TEST(OnlineBag, APauseIsNoEnd) {
     EXPECT_EQ(snapshot.at("complete"), false);
     const auto evaluated = snapshot.at("coverage").at("evaluated").get<std::size_t>();
     EXPECT_GE(evaluated, 10U);
-    EXPECT_LT(evaluated, 60U);
+    EXPECT_LT(evaluated, 40U);
     EXPECT_EQ(detection.count(), evaluated);
     ASSERT_TRUE(run.setPaused(false));
   });
