@@ -5,10 +5,13 @@
 #include <ros/node_handle.h>
 #include <rosgraph_msgs/Log.h>
 
+#include <atomic>
 #include <boost/shared_ptr.hpp>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "evolin_ros/LineArray.h"
@@ -104,12 +107,29 @@ class SequencePublisher {
   ros::Publisher ground_truth_;
 };
 
+/// A camera that runs until the object goes: 30 drawn frames a second of ever later stamps, with
+/// their annotation.
+class Camera30 {
+ public:
+  explicit Camera30(SequencePublisher* publisher);
+  ~Camera30();
+  Camera30(const Camera30&) = delete;
+  Camera30& operator=(const Camera30&) = delete;
+
+ private:
+  void run(SequencePublisher* publisher) const;
+
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
 struct BenchOptions {
   std::string detector = "opencv_lsd";
   std::string associator = "lbd";  ///< "": no associator nodelet
   std::string associated_lines = "ground_truth/lines";
   int frame_step = 1;
   double save_period = 5;
+  int threads = 4;  ///< of the manager
 };
 
 /// Evaluator, detector and associator in a manager, with a publisher that they all listen to.
