@@ -105,7 +105,7 @@ class SequencePublisher {
 };
 
 struct BenchOptions {
-  std::string detector = "opencv_lsd";
+  std::string detector = availableDetector();
   std::string associator = "lbd";  ///< "": no associator nodelet
   std::string associated_lines = "ground_truth/lines";
   int frame_step = 1;
