@@ -12,6 +12,7 @@
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
 #include "evolin_ros/base/text.h"
+#include "evolin_ros/base/yaml_file.h"
 
 namespace evolin {
 
@@ -170,16 +171,7 @@ bool isPresetFile(const std::filesystem::path& path) {
 }  // namespace
 
 Camera readCameraFile(const std::filesystem::path& file) {
-  std::string content;
-  for (const std::string& line : readLines(file)) {
-    content += line + '\n';
-  }
-  YAML::Node node;
-  try {
-    node = YAML::Load(content);
-  } catch (const YAML::Exception& error) {
-    throw ParseError(file.string(), error.mark.line + 1, "not valid YAML: " + error.msg);
-  }
+  const YAML::Node node = readYamlFile(file);
   if (!node.IsMap()) {
     throw ParseError(file.string(), 0,
                      "holds " + CameraMap::show(node) + ", expected a map of camera parameters");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "evolin_ros/base/error.h"
@@ -294,7 +295,7 @@ void VectorizedMetrics::merge(const VectorizedMetrics& other) {
   if (!frames_.empty() && !other.frames_.empty() &&
       frames_.back().number < other.frames_.front().number) {
     // The way of a live stream: its cost must not grow with the frames already there.
-    frames_.insert(frames_.end(), other.frames_.begin(), other.frames_.end());
+    std::copy(other.frames_.begin(), other.frames_.end(), std::back_inserter(frames_));
   } else {
     mergeFrames(other.frames_);
   }

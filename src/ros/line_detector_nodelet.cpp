@@ -71,9 +71,24 @@ class LineDetectorNodelet : public SafeNodelet {
       options_.source = options_.detector;
     }
     detector_ = loader_.loadDetector(options_.detector);
-    detector_->configure(mergedParameters(options_.config, overrides));
+    configureDetector(mergedParameters(options_.config, overrides));
     camera_ = std::make_unique<CameraSource>(getNodeHandle(), "detector " + options_.detector,
                                              detector_->needs(), options_.camera);
+  }
+
+  /// Where the build, for its OpenCV's sake, lacks the detector, the error names those that run.
+  void configureDetector(const YAML::Node& parameters) {
+    try {
+      detector_->configure(parameters);
+    } catch (const UnavailableError& error) {
+      std::string others;
+      for (const PluginInfo& info : loader_.listDetectors()) {
+        if (info.why_unavailable.empty()) {
+          others += (others.empty() ? "" : ", ") + info.name;
+        }
+      }
+      throw UnavailableError(std::string(error.what()) + "; available for ~detector: " + others);
+    }
   }
 
   /// Called at every change of listeners, from any thread.

@@ -10,6 +10,7 @@
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
+#include "evolin_ros/base/yaml_file.h"
 
 namespace evolin::ros_shell {
 
@@ -100,21 +101,11 @@ YAML::Node mergedParameters(const std::string& config, const YAML::Node& overrid
   YAML::Node merged(YAML::NodeType::Map);
   if (!config.empty()) {
     const std::string file = expandPath(config);
-    // A folder opens like a file and reads as an empty one.
-    if (std::filesystem::is_directory(file)) {
-      throw Error(file + ": is a folder; expected a YAML file of parameters");
+    const YAML::Node loaded = readYamlFile(file);
+    if (!loaded.IsMap() && !loaded.IsNull()) {
+      throw Error(file + ": expected a map of parameters");
     }
-    try {
-      const YAML::Node loaded = YAML::LoadFile(file);
-      if (!loaded.IsMap() && !loaded.IsNull()) {
-        throw Error(file + ": expected a map of parameters");
-      }
-      merged = YAML::Clone(loaded.IsMap() ? loaded : merged);
-    } catch (const YAML::BadFile&) {
-      throw Error(file + ": cannot be read; expected a YAML file of parameters");
-    } catch (const YAML::Exception& error) {
-      throw ParseError(file, error.mark.line + 1, error.msg);
-    }
+    merged = YAML::Clone(loaded.IsMap() ? loaded : merged);
   }
   if (overrides.IsMap()) {
     for (const auto& entry : overrides) {

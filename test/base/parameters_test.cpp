@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/base/yaml_file.h"
 #include "test/support/fuzz.h"
 
 namespace evolin {
@@ -227,9 +228,9 @@ TEST(ParameterReader, AnswersDamagedYamlWithValuesOrOneError) {
     const std::string text = fuzzer.damaged(valid);
     YAML::Node node;
     try {
-      node = YAML::Load(text);
-    } catch (const YAML::Exception&) {
-      continue;  // not YAML: the caller's to report
+      node = parseYaml(text, "x.yaml");
+    } catch (const ParseError&) {
+      continue;  // not YAML
     }
     test::countAnswer(
         [&] {

@@ -156,7 +156,7 @@ TEST(MergedParameters, NameTheFileThatIsUnusable) {
   const std::string missing = (folder.path() / "missing.yaml").string();
   expectError([&] { mergedParameters(missing, YAML::Node()); }, {missing, "cannot be read"});
   const std::string here = folder.path().string();
-  expectError([&] { mergedParameters(here, YAML::Node()); }, {here, "folder"});
+  expectError([&] { mergedParameters(here, YAML::Node()); }, {here, "directory"});
   for (const char* content : {"[1, 2]\n", "just text\n", "12\n"}) {
     const std::string file = folder.write("other.yaml", content).string();
     expectError([&] { mergedParameters(file, YAML::Node()); }, {file, "expected a map"});

@@ -12,8 +12,8 @@
 #include "bag_writer.h"
 #include "evolin_ros/DetectionMetrics.h"
 #include "online_stream.h"
-#include "plugin_loader.h"
 #include "test/support/drawn_sequence.h"
+#include "test/support/lsd_release.h"
 #include "test/support/shared_data.h"
 
 namespace evolin::test {
@@ -102,7 +102,7 @@ TEST(OnlineBag, GivesTheReportOfAnEvaluationInProcess) {
   const std::filesystem::path bag = folder.path() / "drawn.bag";
   writeBag(frames, bag);
 
-  BagRun run(bag, "opencv_lsd");
+  BagRun run(bag, availableDetector());
   const nlohmann::json report = run.play();
 
   const Expected expected = evaluateInProcess(frames);
@@ -202,11 +202,6 @@ void expectFigures(const nlohmann::json& report, const std::string& distance,
   EXPECT_EQ(tenths(entry.at("f_score")), figures.f_score);
 }
 
-std::string whyUnavailable(const std::string& detector) {
-  PluginLoader loader;
-  return loader.loadDetector(detector)->whyUnavailable();
-}
-
 /// Plays the ICL-NUIM sample and checks everything that holds for each detector.
 void playSample(const std::string& detector, nlohmann::json* report) {
   SequenceOptions options;
@@ -246,6 +241,9 @@ class RealSample : public ::testing::Test {
 TEST_F(RealSample, HasThePublishedFiguresOfLsd) {
   EVOLIN_REQUIRE_SHARED_DATA();
   if (const std::string why = whyUnavailable("opencv_lsd"); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  if (const std::string why = whyLsdDiffers(); !why.empty()) {
     GTEST_SKIP() << why;
   }
   ASSERT_NO_FATAL_FAILURE(play("opencv_lsd"));

@@ -4,6 +4,8 @@
 #include <ros/param.h>
 #include <sensor_msgs/Image.h>
 
+#include <cmath>
+
 #include "conversions.h"
 #include "online_stream.h"
 #include "test/support/drawn_sequence.h"
@@ -16,6 +18,12 @@ class OnlineDetector : public ::testing::Test {
   OnlineDetector() : manager_(testNamespace()), publisher_(space()) {}
 
   const std::string& space() const { return manager_.space(); }
+
+  /// Loads a nodelet with a detector that this build can run.
+  bool load(const std::string& name, const std::map<std::string, std::string>& remappings = {}) {
+    ros::param::set(space() + "/" + name + "/detector", availableDetector());
+    return manager_.load(name, "evolin_ros/LineDetector", remappings);
+  }
 
   ::testing::AssertionResult waitForImageListeners(unsigned count) {
     return publisher_.waitForListeners(count, 0, 0);
@@ -38,10 +46,10 @@ class OnlineDetector : public ::testing::Test {
 };
 
 TEST_F(OnlineDetector, SubscribesWhileSomebodyListens) {
-  ASSERT_TRUE(manager_.load("detector", "evolin_ros/LineDetector"));
+  ASSERT_TRUE(load("detector"));
   // Another nodelet that does listen shows that the first would have had the time to.
   ros::param::set(space() + "/eager/lazy", false);
-  ASSERT_TRUE(manager_.load("eager", "evolin_ros/LineDetector", {{"lines", "eager_lines"}}));
+  ASSERT_TRUE(load("eager", {{"lines", "eager_lines"}}));
   ASSERT_TRUE(waitForImageListeners(1));
   ASSERT_TRUE(manager_.unload("eager"));
   ASSERT_TRUE(waitForImageListeners(0));
@@ -61,7 +69,7 @@ TEST_F(OnlineDetector, SubscribesWhileSomebodyListens) {
 TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
   const std::vector<SequenceFrame> frames = drawSequence();
   ros::param::set(space() + "/detector/queue_size", 100);
-  ASSERT_TRUE(manager_.load("detector", "evolin_ros/LineDetector"));
+  ASSERT_TRUE(load("detector"));
   Collector<evolin_ros::LineArray> lines(space() + "/lines");
   publisher_.frame_id = "/openni_rgb_optical_frame";  // as TUM's bags name it
   ASSERT_TRUE(waitForImageListeners(1));
@@ -70,7 +78,7 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
   }
   ASSERT_TRUE(lines.waitForCount(frames.size()));
 
-  const std::vector<LineSet> expected = detectLines(frames, "opencv_lsd");
+  const std::vector<LineSet> expected = detectLines(frames, availableDetector());
   const std::vector<evolin_ros::LineArray> messages = lines.messages();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     SCOPED_TRACE("frame " + frames[i].frame.name);
@@ -78,8 +86,8 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
     EXPECT_EQ(messages[i].header.frame_id, "/openni_rgb_optical_frame");
     EXPECT_EQ(messages[i].width, 320U);
     EXPECT_EQ(messages[i].height, 240U);
-    EXPECT_EQ(messages[i].source, "opencv_lsd");
-    EXPECT_TRUE(messages[i].has_scores);
+    EXPECT_EQ(messages[i].source, availableDetector());
+    EXPECT_EQ(messages[i].has_scores, expected[i].scored);
     EXPECT_GT(messages[i].processing_time, ros::Duration(0));
     ASSERT_FALSE(messages[i].lines.empty());
     ASSERT_EQ(messages[i].lines.size(), expected[i].lines.size());
@@ -87,7 +95,11 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
       const LineSegment& line = expected[i].lines[row];
       EXPECT_EQ(messages[i].lines[row].x1, line.x1);
       EXPECT_EQ(messages[i].lines[row].y2, line.y2);
-      EXPECT_EQ(messages[i].lines[row].score, line.score);
+      if (line.hasScore()) {
+        EXPECT_EQ(messages[i].lines[row].score, line.score);
+      } else {
+        EXPECT_TRUE(std::isnan(messages[i].lines[row].score));
+      }
       EXPECT_EQ(messages[i].lines[row].id, -1);
     }
   }
@@ -95,7 +107,7 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
 
 TEST_F(OnlineDetector, DrawsOnlyForThoseWhoLook) {
   const SequenceFrame frame = drawFrame({}, 3);
-  ASSERT_TRUE(manager_.load("detector", "evolin_ros/LineDetector"));
+  ASSERT_TRUE(load("detector"));
   {
     Collector<sensor_msgs::Image> pictures(space() + "/lines_image");
     ASSERT_TRUE(waitForImageListeners(1));
@@ -115,13 +127,13 @@ TEST_F(OnlineDetector, DrawsOnlyForThoseWhoLook) {
 TEST_F(OnlineDetector, TakesGreyImages) {
   SequenceFrame frame = drawFrame({}, 2);
   frame.frame.image = toGray(frame.frame.image);
-  ASSERT_TRUE(manager_.load("detector", "evolin_ros/LineDetector"));
+  ASSERT_TRUE(load("detector"));
   Collector<evolin_ros::LineArray> lines(space() + "/lines");
   ASSERT_TRUE(waitForImageListeners(1));
   publisher_.sendImage(frame);
   ASSERT_TRUE(lines.waitForCount(1));
   EXPECT_EQ(lines.messages().front().lines.size(),
-            detectLines({frame}, "opencv_lsd").front().lines.size());
+            detectLines({frame}, availableDetector()).front().lines.size());
 }
 
 TEST_F(OnlineDetector, NamesWhatItRefuses) {
@@ -130,8 +142,10 @@ TEST_F(OnlineDetector, NamesWhatItRefuses) {
   expectRefusal("misspelt", "queue_sise", 30, {"'queue_sise'", "queue_size"});
   expectRefusal("ill_typed", "queue_size", "many", {"'queue_size'", "many"});
   expectRefusal("out_of_range", "queue_size", 0, {"'queue_size'", "0", "1"});
-  expectRefusal("plugin", "parameters/refine", "perhaps",
-                {"opencv_lsd", "'refine'", "perhaps", "adv"});
+  expectRefusal("unavailable", "detector", "test_unavailable",
+                {"detector test_unavailable", "what no build has", "available", "hough_p"});
+  ros::param::set(space() + "/plugin/detector", "hough_p");
+  expectRefusal("plugin", "parameters/threshold", "many", {"hough_p", "'threshold'", "many", "1"});
   expectRefusal("config", "config", "/nowhere/lsd.yaml", {"/nowhere/lsd.yaml"});
 }
 

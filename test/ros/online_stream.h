@@ -124,7 +124,7 @@ class Camera30 {
 };
 
 struct BenchOptions {
-  std::string detector = "opencv_lsd";
+  std::string detector = availableDetector();
   std::string associator = "lbd";  ///< "": no associator nodelet
   std::string associated_lines = "ground_truth/lines";
   int frame_step = 1;

@@ -60,6 +60,20 @@ std::string testNamespace() {
   return name;
 }
 
+std::string whyUnavailable(const std::string& detector) {
+  PluginLoader loader;
+  return loader.loadDetector(detector)->whyUnavailable();
+}
+
+std::string availableDetector() {
+  for (const char* detector : {"opencv_lsd", "opencv_fld"}) {
+    if (whyUnavailable(detector).empty()) {
+      return detector;
+    }
+  }
+  return "hough_p";
+}
+
 std::vector<LineSet> detectLines(const std::vector<SequenceFrame>& frames,
                                  const std::string& detector_name) {
   PluginLoader loader;

@@ -63,8 +63,15 @@ std::string callTrigger(const std::string& name, double seconds = kPatience);
 /// A namespace of the running test case's own, "/suite_case".
 std::string testNamespace();
 
+/// Why this build cannot run a detector plug-in; "" when it can.
+std::string whyUnavailable(const std::string& detector);
+
+/// The first of opencv_lsd, opencv_fld and hough_p that this build can run: for tests of what holds
+/// with any detector.
+std::string availableDetector();
+
 struct Methods {
-  std::string detector = "opencv_lsd";
+  std::string detector = availableDetector();
   std::string associator = "lbd";
   int frame_step = 1;
 };
