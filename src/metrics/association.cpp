@@ -33,7 +33,10 @@ std::unordered_map<std::int64_t, std::size_t> rowsById(const LineSegments& lines
 }
 
 IndexPairs sortedUnique(IndexPairs pairs) {
-  std::sort(pairs.begin(), pairs.end());
+  // Matchers mostly give pairs in order of rows.
+  if (!std::is_sorted(pairs.begin(), pairs.end())) {
+    std::sort(pairs.begin(), pairs.end());
+  }
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
@@ -69,10 +72,13 @@ Classification classifyAssociation(const IndexPairs& predicted, const IndexPairs
   Classification counts;
   counts.predicted = predicted.size();
   counts.ground_truth = truth.size();
-  counts.true_positives = static_cast<std::uint64_t>(
-      std::count_if(distinct.begin(), distinct.end(), [&true_pairs](const IndexPair& pair) {
-        return std::binary_search(true_pairs.begin(), true_pairs.end(), pair);
-      }));
+  auto truth_place = true_pairs.begin();
+  for (const IndexPair& pair : distinct) {
+    while (truth_place != true_pairs.end() && *truth_place < pair) {
+      ++truth_place;
+    }
+    counts.true_positives += truth_place != true_pairs.end() && *truth_place == pair ? 1 : 0;
+  }
   return counts;
 }
 

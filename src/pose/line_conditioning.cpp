@@ -105,13 +105,6 @@ std::string openMotion(const std::vector<TwoViewLine>& lines, const std::vector<
            " agreeing lines are parallel, pass through one point or lie in one plane with the "
            "camera: a translation stays open";
   }
-  if (parts.size() > 3 && std::any_of(parts.begin(), parts.end(), [&all](const Spread& part) {
-        return !(all - part).spansSpace();
-      })) {
-    return "a single one of the " + counted +
-           " agreeing lines holds a translation that the others (parallel, through one point or in "
-           "one plane with the camera) leave open";
-  }
 
   constexpr double kLargestRotation = 5 * 3.14159265358979323846 / 180;
   constexpr double kLargestTranslation = 0.1;
@@ -129,6 +122,20 @@ std::string openMotion(const std::vector<TwoViewLine>& lines, const std::vector<
            "or a tenth of their distance";
   }
   return "";
+}
+
+bool hangsOnOneLine(const std::vector<TwoViewLine>& lines, const std::vector<Support>& support,
+                    const Pose& motion, const Camera& camera) {
+  std::vector<Spread> parts;
+  Spread all;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (support[i].any()) {
+      parts.push_back(spreadOf(lines[i], support[i], motion, camera));
+      all += parts.back();
+    }
+  }
+  return std::any_of(parts.begin(), parts.end(),
+                     [&all](const Spread& part) { return !(all - part).spansSpace(); });
 }
 
 }  // namespace evolin

@@ -268,7 +268,8 @@ RelativePose RobustPoseEstimator::estimate(const SpatialMatches& matches,
     }
   }
   result.covariance = covarianceOf(lines, best, camera, options_.loss_scale);
-  result.ill_conditioned = supported < kComfortable;
+  result.ill_conditioned =
+      supported < kComfortable || hangsOnOneLine(lines, best.support, best.motion, camera);
   return result;
 }
 

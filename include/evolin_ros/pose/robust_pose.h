@@ -26,7 +26,8 @@ void validate(const RobustPoseOptions& options);
 /// Both frames' depth is used: points of either frame are compared with the lines of the other, so
 /// that the answers of the two directions are each other's inverse but for the sampling. A set
 /// whose lines leave a motion open -- parallel ones, ones through a single point, ones in a plane
-/// through the camera -- is refused, also where one line alone speaks against it.
+/// through the camera -- is refused. A motion that hangs on a single line, or on fewer than six, is
+/// marked ill-conditioned.
 class RobustPoseEstimator : public RelativePoseEstimator {
  public:
   /// Throws as validate().
