@@ -7,10 +7,10 @@
 namespace evolin {
 
 const std::vector<MetricFamily>& allMetricFamilies() {
-  static const std::vector<MetricFamily> kAll = {
+  static const std::vector<MetricFamily> kFamilies = {
       MetricFamily::kDetection,   MetricFamily::kHeatmap, MetricFamily::kRepeatability,
       MetricFamily::kAssociation, MetricFamily::kPose,    MetricFamily::kTracks};
-  return kAll;
+  return kFamilies;
 }
 
 std::string toString(MetricFamily family) {

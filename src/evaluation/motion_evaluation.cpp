@@ -38,7 +38,7 @@ MotionUpdate MotionEvaluation::setCamera(const Camera& camera) {
     advance(false, &update);
   } else if (!camera_differs_ && !equal(*camera_, camera)) {
     camera_differs_ = true;
-    update.notes.push_back(
+    update.notes.emplace_back(
         "camera_info changed within the sequence; the intrinsics of its first message are used for "
         "depth and poses");
   }
