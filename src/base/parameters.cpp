@@ -114,9 +114,8 @@ void ParameterReader::read(const std::string& key, bool* value) {
   *value = result;
 }
 
-void ParameterReader::read(const std::string& key, int* value, int low, int high) {
-  const YAML::Node node = find(key);
-  if (!node.IsDefined()) return;
+int ParameterReader::wholeNumber(const std::string& key, const YAML::Node& node, int low,
+                                 int high) const {
   const std::optional<std::int64_t> result =
       node.IsScalar() ? parseInteger(node.Scalar()) : std::nullopt;
   if (!result || *result < low || *result > high) {
@@ -127,7 +126,22 @@ void ParameterReader::read(const std::string& key, int* value, int low, int high
                           withRange("a whole number", std::to_string(low), std::to_string(high)) +
                           ", got " + shown(node));
   }
-  *value = static_cast<int>(*result);
+  return static_cast<int>(*result);
+}
+
+void ParameterReader::read(const std::string& key, int* value, int low, int high) {
+  const YAML::Node node = find(key);
+  if (node.IsDefined()) *value = wholeNumber(key, node, low, high);
+}
+
+void ParameterReader::read(const std::string& key, std::vector<int>* values, int low, int high) {
+  const YAML::Node node = find(key);
+  if (!node.IsDefined()) return;
+  if (!node.IsSequence() || node.size() == 0) {
+    throw ConfigError(owner_, key, "expected a list of whole numbers, got " + shown(node));
+  }
+  values->clear();
+  for (const YAML::Node& element : node) values->push_back(wholeNumber(key, element, low, high));
 }
 
 void ParameterReader::read(const std::string& key, double* value, double low, double high) {

@@ -6,6 +6,7 @@
 #include "evaluate_options.h"
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/dataset/csv.h"
+#include "evolin_ros/dataset/image_file.h"
 #include "evolin_ros/metrics/vectorized.h"
 #include "file_pairing.h"
 #include "image_size.h"
@@ -23,12 +24,6 @@ constexpr const char* kUsage =
     "scores, average precision and precision-recall curves, for two distances in pixels of images "
     "scaled to 128 x 128.\n\n"
     "Usage: evolin evaluate vectorized --pred-lines DIR --gt-lines DIR --imgs DIR [OPTIONS]";
-
-const std::vector<std::string>& imageExtensions() {
-  static const std::vector<std::string> kExtensions = {".png", ".jpg", ".jpeg", ".bmp", ".pgm",
-                                                       ".ppm", ".tif", ".tiff", ".webp"};
-  return kExtensions;
-}
 
 struct Request {
   std::string predicted;

@@ -135,6 +135,12 @@ cv::Mat decode(const std::filesystem::path& file, int flags) {
 
 }  // namespace
 
+const std::vector<std::string>& imageExtensions() {
+  static const std::vector<std::string> kExtensions = {".png", ".jpg", ".jpeg", ".bmp", ".pgm",
+                                                       ".ppm", ".tif", ".tiff", ".webp"};
+  return kExtensions;
+}
+
 cv::Mat readImage(const std::filesystem::path& file) { return decode(file, cv::IMREAD_ANYCOLOR); }
 
 cv::Mat readStoredDepth(const std::filesystem::path& file) {

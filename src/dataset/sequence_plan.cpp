@@ -7,17 +7,13 @@
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/dataset/csv.h"
+#include "evolin_ros/dataset/image_file.h"
 
 namespace evolin {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-const std::vector<std::string>& imageExtensions() {
-  static const std::vector<std::string> extensions = {".png", ".jpg", ".jpeg"};
-  return extensions;
-}
 
 bool holdsImages(const fs::path& folder) {
   if (!fs::is_directory(folder)) {

@@ -23,7 +23,7 @@ void appendPose(const Pose& pose, std::string* text) {
   for (const double value :
        {pose.translation.x(), pose.translation.y(), pose.translation.z(), pose.rotation.x(),
         pose.rotation.y(), pose.rotation.z(), pose.rotation.w()}) {
-    *text += " " + formatDouble(value);
+    *text += " " + formatDouble(value + 0.0);  // no -0
   }
 }
 

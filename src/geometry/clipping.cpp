@@ -2,6 +2,7 @@
 #include "evolin_ros/geometry/clipping.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace evolin {
 
@@ -38,22 +39,30 @@ std::optional<LineSegment> clipToRectangle(const LineSegment& segment, const Rec
   if (!segment.isFinite()) {
     return std::nullopt;
   }
-  const double dx = segment.x2 - segment.x1;
-  const double dy = segment.y2 - segment.y1;
+  // Where differences of coordinates could overflow, all is computed at a sixteenth of the size.
+  constexpr double kHuge = 1e300;
+  const double scale = std::max({std::abs(segment.x1), std::abs(segment.y1), std::abs(segment.x2),
+                                 std::abs(segment.y2)}) > kHuge
+                           ? 0.0625
+                           : 1;
+  const double x = segment.x1 * scale;
+  const double y = segment.y1 * scale;
+  const double dx = segment.x2 * scale - x;
+  const double dy = segment.y2 * scale - y;
   double enter = 0;
   double leave = 1;
-  if (!narrow(segment.x1, dx, rectangle.left, rectangle.right, &enter, &leave) ||
-      !narrow(segment.y1, dy, rectangle.top, rectangle.bottom, &enter, &leave)) {
+  if (!narrow(x, dx, rectangle.left * scale, rectangle.right * scale, &enter, &leave) ||
+      !narrow(y, dy, rectangle.top * scale, rectangle.bottom * scale, &enter, &leave)) {
     return std::nullopt;
   }
   LineSegment result = segment;
   if (enter > 0) {
-    result.x1 = segment.x1 + enter * dx;
-    result.y1 = segment.y1 + enter * dy;
+    result.x1 = (x + enter * dx) / scale;
+    result.y1 = (y + enter * dy) / scale;
   }
   if (leave < 1) {
-    result.x2 = segment.x1 + leave * dx;
-    result.y2 = segment.y1 + leave * dy;
+    result.x2 = (x + leave * dx) / scale;
+    result.y2 = (y + leave * dy) / scale;
   }
   // Rounding may leave a cut end a hair outside.
   return clampToRectangle(result, rectangle);

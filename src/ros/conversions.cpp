@@ -17,8 +17,6 @@ namespace evolin::ros_shell {
 
 namespace {
 
-constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
-
 evolin_ros::Line toMessage(const LineSegment& segment) {
   evolin_ros::Line line;
   line.x1 = segment.x1;
@@ -67,18 +65,6 @@ ros::Duration toDuration(double seconds) {
   }
 }
 
-evolin_ros::ClassificationEntry entryOf(const std::string& name, const Classification& counts) {
-  evolin_ros::ClassificationEntry entry;
-  entry.name = name;
-  entry.threshold = kNotDefined;
-  entry.score_threshold = kNotDefined;
-  entry.precision = counts.precision();
-  entry.recall = counts.recall();
-  entry.f_score = counts.fScore();
-  entry.average_precision = kNotDefined;
-  return entry;
-}
-
 /// K, width and height of the message are those of the whole, unbinned image; the camera's become
 /// those of the images that really come.
 void takeCutAndBinning(const sensor_msgs::CameraInfo& message, Camera* camera) {
@@ -97,6 +83,32 @@ void takeCutAndBinning(const sensor_msgs::CameraInfo& message, Camera* camera) {
   camera->cx /= across;
   camera->fy /= down;
   camera->cy /= down;
+}
+
+/// CV_16UC1 or CV_32FC1, a copy.
+cv::Mat storedDepth(const sensor_msgs::ImageConstPtr& message) {
+  namespace encodings = sensor_msgs::image_encodings;
+  const bool metres = message->encoding == encodings::TYPE_32FC1;
+  if (!metres && message->encoding != encodings::TYPE_16UC1 &&
+      message->encoding != encodings::MONO16) {
+    throw unusable("depth image", *message, kDepthEncodings, "another encoding");
+  }
+  cv::Mat stored;
+  try {
+    stored = cv_bridge::toCvShare(message)->image.clone();
+    const int type = metres ? CV_32FC1 : CV_16UC1;
+    if (stored.type() != type) {
+      // cv_bridge swaps the bytes of big-endian images but returns them as channels of bytes.
+      stored = cv::Mat(stored.rows, stored.cols, type, stored.data).clone();
+    }
+  } catch (const std::exception& error) {
+    throw unusable("depth image", *message, kDepthEncodings, error.what());
+  }
+  if (stored.empty()) {
+    throw Error("depth image at " + formatStamp(fromRos(message->header.stamp)) +
+                " s has no pixels");
+  }
+  return stored;
 }
 
 }  // namespace
@@ -220,18 +232,20 @@ sensor_msgs::CameraInfo toMessage(const Camera& camera, const std_msgs::Header& 
 }
 
 Pose fromMessage(const geometry_msgs::PoseStamped& message) {
-  const geometry_msgs::Pose& from = message.pose;
+  return fromMessage(message.pose, message.header.stamp);
+}
+
+Pose fromMessage(const geometry_msgs::Pose& from, const ros::Time& stamp) {
   Pose pose;
   pose.translation = {from.position.x, from.position.y, from.position.z};
   pose.rotation = {from.orientation.w, from.orientation.x, from.orientation.y, from.orientation.z};
   const double norm = pose.rotation.norm();
   if (!(norm > 0) || !std::isfinite(norm)) {
-    throw Error("pose at " + formatStamp(fromRos(message.header.stamp)) +
-                " s: quaternion of norm " + std::to_string(norm) + ", expected 1");
+    throw Error("pose at " + formatStamp(fromRos(stamp)) + " s: quaternion of norm " +
+                std::to_string(norm) + ", expected 1");
   }
   if (!pose.translation.allFinite()) {
-    throw Error("pose at " + formatStamp(fromRos(message.header.stamp)) +
-                " s: the position is not finite");
+    throw Error("pose at " + formatStamp(fromRos(stamp)) + " s: the position is not finite");
   }
   pose.rotation.normalize();
   return pose;
@@ -274,75 +288,17 @@ Frame toFrame(const sensor_msgs::ImageConstPtr& message) {
 }
 
 cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor) {
-  namespace encodings = sensor_msgs::image_encodings;
-  const bool metres = message->encoding == encodings::TYPE_32FC1;
-  if (!metres && message->encoding != encodings::TYPE_16UC1 &&
-      message->encoding != encodings::MONO16) {
-    throw unusable("depth image", *message, kDepthEncodings, "another encoding");
-  }
+  const cv::Mat stored = storedDepth(message);
   cv::Mat depth;
-  try {
-    cv::Mat stored = cv_bridge::toCvShare(message)->image.clone();
-    const int type = metres ? CV_32FC1 : CV_16UC1;
-    if (stored.type() != type) {
-      // cv_bridge swaps the bytes of big-endian images but returns them as channels of bytes.
-      stored = cv::Mat(stored.rows, stored.cols, type, stored.data).clone();
-    }
-    stored.convertTo(depth, CV_32F, metres ? 1 : 1 / depth_factor);
-  } catch (const std::exception& error) {
-    throw unusable("depth image", *message, kDepthEncodings, error.what());
-  }
-  if (depth.empty()) {
-    throw Error("depth image at " + formatStamp(fromRos(message->header.stamp)) +
-                " s has no pixels");
-  }
+  stored.convertTo(depth, CV_32F, stored.type() == CV_32FC1 ? 1 : 1 / depth_factor);
   // Drivers write 0, NaN or an infinity where they saw nothing.
   const cv::Mat none = ~((depth > 0) & (depth <= std::numeric_limits<float>::max()));
   depth.setTo(std::numeric_limits<float>::quiet_NaN(), none);
   return depth;
 }
 
-evolin_ros::DetectionMetrics toMessage(const std::vector<DetectionEntry>& entries,
-                                       const std_msgs::Header& header, bool cumulative,
-                                       std::size_t frames, Protocol protocol) {
-  evolin_ros::DetectionMetrics message;
-  message.header = header;
-  message.cumulative = cumulative;
-  message.frames = static_cast<std::uint32_t>(frames);
-  message.protocol = toString(protocol);
-  for (const DetectionEntry& entry : entries) {
-    evolin_ros::ClassificationEntry row = entryOf("vectorized", entry.counts);
-    row.distance = toString(entry.setting.distance);
-    row.threshold = entry.setting.threshold;
-    row.average_precision = entry.average_precision.value_or(kNotDefined);
-    message.entries.push_back(row);
-  }
-  return message;
-}
-
-evolin_ros::AssociationMetrics toMessage(const Classification& counts,
-                                         const std_msgs::Header& header, bool cumulative,
-                                         std::size_t pairs, Protocol protocol) {
-  evolin_ros::AssociationMetrics message;
-  message.header = header;
-  message.cumulative = cumulative;
-  message.frames = static_cast<std::uint32_t>(pairs);
-  message.protocol = toString(protocol);
-  message.entries.push_back(entryOf("association", counts));
-  return message;
-}
-
-evolin_ros::Coverage toMessage(const CoverageCounts& counts, const std_msgs::Header& header) {
-  evolin_ros::Coverage message;
-  message.header = header;
-  message.seen = static_cast<std::uint32_t>(counts.seen);
-  message.evaluated = static_cast<std::uint32_t>(counts.evaluated);
-  message.unmatched = static_cast<std::uint32_t>(counts.unmatched);
-  message.dropped = static_cast<std::uint32_t>(counts.dropped);
-  message.no_ground_truth = static_cast<std::uint32_t>(counts.no_ground_truth);
-  message.bad_ground_truth = static_cast<std::uint32_t>(counts.bad_ground_truth);
-  message.skipped = static_cast<std::uint32_t>(counts.skipped);
-  return message;
+DepthMap toDepthMap(const sensor_msgs::ImageConstPtr& message, double depth_factor) {
+  return DepthMap(storedDepth(message), depth_factor);
 }
 
 }  // namespace evolin::ros_shell

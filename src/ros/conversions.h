@@ -1,9 +1,6 @@
 // Messages to values of the core and back, as free functions.
 #pragma once
 
-#include <evolin_ros/AssociationMetrics.h>
-#include <evolin_ros/Coverage.h>
-#include <evolin_ros/DetectionMetrics.h>
 #include <evolin_ros/LineArray.h>
 #include <evolin_ros/LineMatchArray.h>
 #include <geometry_msgs/PoseStamped.h>
@@ -15,7 +12,7 @@
 
 #include "evolin_ros/dataset/frame.h"
 #include "evolin_ros/evaluation/inputs.h"
-#include "evolin_ros/evaluation/report.h"
+#include "evolin_ros/geometry/projection.h"
 
 namespace evolin::ros_shell {
 
@@ -41,6 +38,7 @@ sensor_msgs::CameraInfo toMessage(const Camera& camera, const std_msgs::Header& 
 
 /// The quaternion comes out normalised. Throws Error for one without length and for a position that
 /// is not finite.
+Pose fromMessage(const geometry_msgs::Pose& message, const ros::Time& stamp);
 Pose fromMessage(const geometry_msgs::PoseStamped& message);
 geometry_msgs::Pose toMessage(const Pose& pose);
 
@@ -53,15 +51,11 @@ Frame toFrame(const sensor_msgs::ImageConstPtr& message);
 /// none (0, negative or not finite). Throws Error for another encoding or a malformed image.
 cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor);
 
+/// The same as stored, without the rounding to single precision: units of a metre /
+/// `depth_factor`, or metres.
+DepthMap toDepthMap(const sensor_msgs::ImageConstPtr& message, double depth_factor);
+
 /// TUM's bags write "/world"; tf2 and everybody else "world".
 std::string withoutLeadingSlash(const std::string& frame_id);
-
-evolin_ros::DetectionMetrics toMessage(const std::vector<DetectionEntry>& entries,
-                                       const std_msgs::Header& header, bool cumulative,
-                                       std::size_t frames, Protocol protocol);
-evolin_ros::AssociationMetrics toMessage(const Classification& counts,
-                                         const std_msgs::Header& header, bool cumulative,
-                                         std::size_t pairs, Protocol protocol);
-evolin_ros::Coverage toMessage(const CoverageCounts& counts, const std_msgs::Header& header);
 
 }  // namespace evolin::ros_shell

@@ -17,9 +17,12 @@
 #include "evaluator_options.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/evaluation/stream_evaluator.h"
+#include "metric_publishers.h"
+#include "motion_inputs.h"
 #include "node_parameters.h"
 #include "report_keeper.h"
 #include "safe_nodelet.h"
+#include "task_worker.h"
 #include "topic_watchdog.h"
 #include "topics.h"
 #include "wall_throttle.h"
@@ -50,25 +53,17 @@ class EvaluatorNodelet : public SafeNodelet {
     }
     watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), options_.warn_after);
     last_input_ = ros::WallTime::now();
-    advertise();
+    metrics_ = std::make_unique<MetricPublishers>(getNodeHandle(), options_.pass);
+    worker_ = std::make_unique<TaskWorker>(
+        TaskOptions{options_.pass.evaluation.heatmap, options_.heatmap_budget,
+                    options_.pass.motion.pose_method},
+        static_cast<std::size_t>(options_.task_queue),
+        [this](const EvaluationResult& result) { onResult(result); });
     subscribe();
     offerServices();
     NODELET_INFO("protocol %s, report in %s",
                  toString(options_.pass.evaluation.vectorized.protocol).c_str(),
                  keeper_->folder().c_str());
-  }
-
-  void advertise() {
-    ros::NodeHandle& handle = getNodeHandle();
-    detection_frame_ =
-        handle.advertise<evolin_ros::DetectionMetrics>(topics::kDetectionFrame, kResultQueue);
-    detection_cumulative_ = handle.advertise<evolin_ros::DetectionMetrics>(
-        topics::kDetectionCumulative, kResultQueue, true);
-    association_frame_ =
-        handle.advertise<evolin_ros::AssociationMetrics>(topics::kAssociationFrame, kResultQueue);
-    association_cumulative_ = handle.advertise<evolin_ros::AssociationMetrics>(
-        topics::kAssociationCumulative, kResultQueue, true);
-    coverage_ = handle.advertise<evolin_ros::Coverage>(topics::kCoverage, kResultQueue, true);
   }
 
   /// All inputs share the single-threaded queue, so that each stays in its own order.
@@ -83,6 +78,27 @@ class EvaluatorNodelet : public SafeNodelet {
     matches_ = handle.subscribe(topics::kMatches, kResultQueue, &EvaluatorNodelet::onMatches, this);
     camera_info_ =
         handle.subscribe(topics::kCameraInfo, kResultQueue, &EvaluatorNodelet::onCameraInfo, this);
+    const MetricFamilies& families = options_.pass.families;
+    if (families.count(MetricFamily::kRepeatability) + families.count(MetricFamily::kPose) > 0) {
+      motion_inputs_ = std::make_unique<MotionInputs>(
+          handle, options_,
+          MotionInputs::Callbacks{[this](const std_msgs::Header& header, DepthMap depth) {
+                                    takeBeside([&] {
+                                      return evaluator_->addDepth(fromRos(header.stamp),
+                                                                  std::move(depth));
+                                    });
+                                  },
+                                  [this](const StampedPose& pose) {
+                                    takeBeside([&] { return evaluator_->addPose(pose); });
+                                  },
+                                  [this](const std::string& text) { warn(text); }});
+    }
+  }
+
+  void warn(const std::string& text) {
+    if (warnings_.due()) {
+      NODELET_WARN("%s", text.c_str());
+    }
   }
 
   /// Services have a thread of their own: ~finish waits while messages come in, however few threads
@@ -112,11 +128,13 @@ class EvaluatorNodelet : public SafeNodelet {
   void onLines(const evolin_ros::LineArrayConstPtr& message) {
     take(topics::kLines, lines_, message->header,
          [&] { return evaluator_->addLines(fromMessage(*message)); });
+    wantPose(message->header);
   }
 
   void onGroundTruth(const evolin_ros::LineArrayConstPtr& message) {
     take(topics::kGroundTruthLines, ground_truth_, message->header,
          [&] { return evaluator_->addGroundTruth(fromMessage(*message)); });
+    wantPose(message->header);
   }
 
   void onMatches(const evolin_ros::LineMatchArrayConstPtr& message) {
@@ -129,6 +147,77 @@ class EvaluatorNodelet : public SafeNodelet {
   void onCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
     take(topics::kCameraInfo, camera_info_, message->header,
          [&] { return evaluator_->addImage(fromRos(message->header.stamp)); });
+    takeCamera(*message);
+    wantPose(message->header);
+  }
+
+  void takeCamera(const sensor_msgs::CameraInfo& message) {
+    if (!motion_inputs_ || camera_refused_) {
+      return;
+    }
+    try {
+      const Camera camera = fromMessage(message);
+      takeBeside([&] { return evaluator_->setCamera(camera); });
+    } catch (const Error& error) {
+      camera_refused_ = true;
+      NODELET_WARN("%s: %s; repeatability and relative pose are not evaluated",
+                   getNodeHandle().resolveName(topics::kCameraInfo).c_str(), error.what());
+    }
+  }
+
+  /// Once the image, lines or ground truth of this header are known.
+  void wantPose(const std_msgs::Header& header) {
+    if (motion_inputs_) {
+      motion_inputs_->wantPose(header);
+    }
+  }
+
+  /// Depth and poses belong to frames, they are none: a stream of them that goes on does not keep
+  /// ~finish waiting.
+  template <class Add>
+  void takeBeside(const Add& add) {
+    EvaluationUpdate update;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++inputs_;
+      update = add();
+      handOut(&update);
+      metrics_->publish(update, last_header_);
+    }
+    for (const std::string& note : update.notes) {
+      warn(note);
+    }
+  }
+
+  void onResult(const EvaluationResult& result) {
+    EvaluationUpdate update;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      last_input_ = ros::WallTime::now();
+      ++inputs_;
+      update = evaluator_->addResult(result);
+      metrics_->publish(update, last_header_);
+    }
+    for (const std::string& note : update.notes) {
+      warn(note);
+    }
+  }
+
+  /// Gives the update's tasks to the worker; what does not fit is counted.
+  void handOut(EvaluationUpdate* update) {
+    for (EvaluationTask& task : update->tasks) {
+      if (!worker_->add(task)) {
+        evaluator_->skip(task);
+        if (!queue_told_) {
+          queue_told_ = true;
+          NODELET_WARN(
+              "%d heatmaps and pose estimates wait already: what comes is left out and counted in "
+              "coverage; play slower, or raise ~task_queue, or take them out of ~metrics",
+              options_.task_queue);
+        }
+      }
+    }
+    update->tasks.clear();
   }
 
   template <class Add>
@@ -153,7 +242,9 @@ class EvaluatorNodelet : public SafeNodelet {
         released = evaluator_->takeReleasedReport();
         finished = evaluator_->previousReport();
       }
-      publish(update, header);
+      handOut(&update);
+      metrics_->publish(update, header);
+      last_header_ = header;
     }
     for (const std::string& warning : update.warnings) {
       NODELET_WARN("%s (publishers: %u): %s", name.c_str(), publishers, warning.c_str());
@@ -179,24 +270,6 @@ class EvaluatorNodelet : public SafeNodelet {
     }
   }
 
-  void publish(const EvaluationUpdate& update, const std_msgs::Header& header) {
-    const Protocol protocol = options_.pass.evaluation.vectorized.protocol;
-    for (const FrameRecord& frame : update.frames) {
-      if (frame.state != FrameState::kEvaluated) {
-        continue;
-      }
-      std_msgs::Header stamped = header;
-      stamped.stamp = toRosTime(frame.stamp);
-      detection_frame_.publish(toMessage(frame.entries, stamped, false, 1, protocol));
-    }
-    for (const PairRecord& pair : update.pairs) {
-      std_msgs::Header stamped = header;
-      stamped.stamp = toRosTime(pair.stamp);
-      association_frame_.publish(toMessage(pair.counts, stamped, false, 1, protocol));
-    }
-    last_header_ = header;
-  }
-
   /// Sums cost more than a frame's own figures (average precision sorts all predictions), so they
   /// go out at a period of their own.
   void publishSums(bool now) {
@@ -206,13 +279,7 @@ class EvaluatorNodelet : public SafeNodelet {
       return;
     }
     published_inputs_ = inputs_;
-    const SequenceEvaluator& sums = evaluator_->current().evaluator();
-    const Protocol protocol = options_.pass.evaluation.vectorized.protocol;
-    detection_cumulative_.publish(toMessage(sums.detectionEntries(), last_header_, true,
-                                            sums.detection().frames(), protocol));
-    association_cumulative_.publish(toMessage(sums.association().classification(), last_header_,
-                                              true, sums.association().pairs(), protocol));
-    coverage_.publish(toMessage(evaluator_->coverage(), last_header_));
+    metrics_->publishSums(*evaluator_, last_header_);
     // On a long run the sums must not take the inputs' time.
     constexpr double kShare = 20;
     next_sums_ = ros::WallTime::now() + (ros::WallTime::now() - begin) * kShare;
@@ -381,17 +448,16 @@ class EvaluatorNodelet : public SafeNodelet {
   std::optional<std::size_t> published_inputs_ = 0;  ///< none: the sums must go out
   ros::WallTime next_sums_;
   std_msgs::Header last_header_;
+  bool queue_told_ = false;
 
+  bool camera_refused_ = false;
   std::set<std::string> crowded_;  ///< topics of several publishers that a warning has named
   std::unique_ptr<ReportKeeper> keeper_;
   WallThrottle warnings_;
   WallThrottle errors_;
   std::unique_ptr<TopicWatchdog> watchdog_;
-  ros::Publisher detection_frame_;
-  ros::Publisher detection_cumulative_;
-  ros::Publisher association_frame_;
-  ros::Publisher association_cumulative_;
-  ros::Publisher coverage_;
+  std::unique_ptr<MetricPublishers> metrics_;
+  std::unique_ptr<MotionInputs> motion_inputs_;
   ros::Subscriber lines_;
   ros::Subscriber ground_truth_;
   ros::Subscriber matches_;
@@ -402,6 +468,7 @@ class EvaluatorNodelet : public SafeNodelet {
   ros::ServiceServer save_;
   ros::ServiceServer reset_;
   ros::ServiceServer finish_;
+  std::unique_ptr<TaskWorker> worker_;  ///< last: its thread uses all of the above
 };
 
 }  // namespace evolin::ros_shell

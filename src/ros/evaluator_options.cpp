@@ -14,12 +14,35 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   VectorizedOptions& vectorized = options.pass.evaluation.vectorized;
   std::string protocol = toString(vectorized.protocol);
   int buffer = static_cast<int>(options.pass.buffer);
+  MotionOptions& motion = options.pass.motion;
+  std::vector<std::string> metrics;
+  for (const MetricFamily family : options.pass.families) {
+    metrics.push_back(toString(family));
+  }
+  std::string strategy = toString(motion.pose_method.strategy);
+  std::string pose_from = "topic";
+  double max_time_difference = toSeconds(motion.max_time_difference);
+  int depth_buffer = static_cast<int>(motion.depth_buffer);
   ParameterReader reader(parameters, owner);
+  reader.read("metrics", &metrics);
   reader.read("protocol", &protocol, {"evolin", "paper"});
   reader.read("distance_thresholds", &vectorized.distance_thresholds,
               std::numeric_limits<double>::min(), 1e9);
   reader.read("frame_step", &options.pass.frame_step, 1, 100000);
   reader.read("buffer", &buffer, 2, 1000000);
+  reader.read("repeatability_steps", &motion.repeatabilities.frame_steps, 1, 100000);
+  reader.read("pose_strategy", &strategy, {"evolin", "robust"});
+  reader.read("auc_thresholds", &options.pass.auc_thresholds, 1e-6, 180);
+  reader.read("carry_over_gate", &options.pass.evaluation.carry_over_gate, 1e-6, 1e6);
+  reader.read("heatmap_score_thresholds", &options.pass.evaluation.heatmap.score_thresholds, -1e300,
+              1e300);
+  reader.read("heatmap_budget", &options.heatmap_budget, 0, kLongest);
+  reader.read("task_queue", &options.task_queue, 1, 1000000);
+  reader.read("max_time_difference", &max_time_difference, 0, 10);
+  reader.read("depth_buffer", &depth_buffer, 1, 100000);
+  reader.read("depth_factor", &options.depth_factor, 1e-6, 1e9);
+  reader.read("pose_from", &pose_from, {"topic", "tf"});
+  reader.read("world_frame", &options.world_frame);
   reader.read("output_dir", &options.output_dir);
   reader.read("save_period", &options.save_period, 0.01, kLongest);
   reader.read("idle_timeout", &options.idle_timeout, 0, kLongest);
@@ -30,6 +53,27 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   reader.readMap("input");
   reader.finish();
   vectorized.protocol = parseProtocol(protocol);
+  options.pass.families.clear();
+  for (const std::string& name : metrics) {
+    try {
+      options.pass.families.insert(parseMetricFamily(name));
+    } catch (const Error& error) {
+      throw ConfigError(owner, "metrics", error.what());
+    }
+  }
+  motion.repeatabilities.protocol = vectorized.protocol;
+  motion.repeatabilities.distance_thresholds = vectorized.distance_thresholds;
+  try {
+    RepeatabilityMetrics checked(motion.repeatabilities);
+  } catch (const Error& error) {
+    throw ConfigError(owner, "repeatability_steps", error.what());
+  }
+  motion.pose_method.protocol = vectorized.protocol;
+  motion.pose_method.strategy = parsePoseStrategy(strategy);
+  motion.max_time_difference = fromSeconds(max_time_difference);
+  motion.depth_buffer = static_cast<std::size_t>(depth_buffer);
+  options.pose_from =
+      pose_from == "tf" ? EvaluatorOptions::PoseFrom::kTf : EvaluatorOptions::PoseFrom::kTopic;
   options.pass.buffer = static_cast<std::size_t>(buffer);
   const std::size_t most = VectorizedMetrics::kMaxSettings / vectorized.distances.size();
   if (vectorized.distance_thresholds.size() > most) {

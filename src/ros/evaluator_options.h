@@ -12,9 +12,16 @@ namespace evolin::ros_shell {
 
 struct EvaluatorOptions {
   PassOptions pass;
-  std::string output_dir;   ///< "": a new folder under ~/.ros/evolin_ros
-  double save_period = 5;   ///< s of wall time between two savings
-  double idle_timeout = 2;  ///< s of wall time without input after which the report is saved
+  /// Where ground-truth poses come from.
+  enum class PoseFrom { kTopic, kTf };
+  PoseFrom pose_from = PoseFrom::kTopic;
+  std::string world_frame = "world";  ///< of tf, with or without a leading slash
+  double depth_factor = 1000;  ///< stored units per metre of 16-bit depth images; TUM's files: 5000
+  double heatmap_budget = 1;   ///< s a frame's heatmap may take; longer ones count as skipped
+  int task_queue = 1000;       ///< heatmaps and pose estimates that may wait for their turn
+  std::string output_dir;      ///< "": a new folder under ~/.ros/evolin_ros
+  double save_period = 5;      ///< s of wall time between two savings
+  double idle_timeout = 2;     ///< s of wall time without input after which the report is saved
   double drain_timeout =
       5;  ///< s of wall time without input after which ~finish stops waiting for what is due
   double warn_after = 3;  ///< s without an expected message until the warning; 0: never

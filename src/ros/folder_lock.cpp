@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "evolin_ros/base/error.h"
 
@@ -16,6 +18,7 @@ namespace evolin::ros_shell {
 namespace {
 
 constexpr char kFile[] = ".evaluator";
+constexpr std::chrono::seconds kPatience(2);
 
 std::string contentOf(int descriptor) {
   char text[512];
@@ -35,6 +38,7 @@ bool isStillThere(int descriptor, const std::filesystem::path& file) {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& owner)
     : file_(folder / kFile) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
   for (;;) {
     descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor_ < 0) {
@@ -43,6 +47,10 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& o
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       const std::string holder = contentOf(descriptor_);
       close(descriptor_);
+      if (std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        continue;
+      }
       throw Error("output_dir " + folder.string() + ": " + holder +
                   " writes its report there; expected a folder for " + owner + " alone");
     }

@@ -15,8 +15,19 @@ constexpr char kGroundTruthLines[] = "ground_truth/lines";
 constexpr char kGroundTruthPose[] = "ground_truth/pose";
 constexpr char kDetectionFrame[] = "metrics/detection/frame";
 constexpr char kDetectionCumulative[] = "metrics/detection/cumulative";
+constexpr char kHeatmapFrame[] = "metrics/heatmap/frame";
+constexpr char kHeatmapCumulative[] = "metrics/heatmap/cumulative";
+constexpr char kRepeatabilityFrame[] = "metrics/repeatability/frame";
+constexpr char kRepeatabilityCumulative[] = "metrics/repeatability/cumulative";
 constexpr char kAssociationFrame[] = "metrics/association/frame";
 constexpr char kAssociationCumulative[] = "metrics/association/cumulative";
+constexpr char kDetectedAssociationFrame[] = "metrics/association_detected/frame";
+constexpr char kDetectedAssociationCumulative[] = "metrics/association_detected/cumulative";
+constexpr char kPoseFrame[] = "metrics/pose/frame";
+constexpr char kPoseCumulative[] = "metrics/pose/cumulative";
+constexpr char kTracksCumulative[] = "metrics/tracks/cumulative";
+constexpr char kTf[] = "/tf";
+constexpr char kTfStatic[] = "/tf_static";
 constexpr char kCoverage[] = "coverage";
 }  // namespace topics
 

@@ -12,6 +12,7 @@
 #include "evolin_ros/evaluation/inputs.h"
 #include "evolin_ros/evaluation/pass_evaluation.h"
 #include "evolin_ros/evaluation/report.h"
+#include "test/metrics/vectorized_support.h"
 #include "test/support/random_lines.h"
 
 namespace evolin::test {
@@ -20,8 +21,8 @@ namespace evolin::test {
 constexpr int kSide = 128;
 constexpr Stamp kSecond = kNanosecondsPerSecond;
 
-/// Places among the settings of the default options.
-enum Setting { kOrthogonal5, kOrthogonal10, kOrthogonal15, kStructural5, kStructural10 };
+/// As kStructural5: its place among the settings of the default options.
+constexpr std::size_t kStructural10 = 4;
 
 inline LineSegment line(double x1, double y1, double x2, double y2, double score = kNoScore,
                         std::int64_t id = kNoId) {
@@ -77,13 +78,6 @@ inline MatchSet matchSet(Stamp first, Stamp second, const std::string& lines_sou
   set.lines_source = lines_source;
   set.matches = std::move(matches);
   return set;
-}
-
-inline void expectCounts(const Classification& counts, std::uint64_t true_positives,
-                         std::uint64_t predicted, std::uint64_t ground_truth) {
-  EXPECT_EQ(counts.true_positives, true_positives);
-  EXPECT_EQ(counts.predicted, predicted);
-  EXPECT_EQ(counts.ground_truth, ground_truth);
 }
 
 inline void expectSeenIsTheSum(const CoverageCounts& counts) {

@@ -55,6 +55,26 @@ TEST(ClipToRectangle, FindsNothingOutside) {
   EXPECT_FALSE(clipToRectangle(segment(1, std::numeric_limits<double>::infinity(), 2, 2), kBox));
 }
 
+TEST(ClipToRectangle, BearsTheLargestNumbers) {
+  const double most = std::numeric_limits<double>::max();
+  // Through the middle of the box, from one end of all numbers to the other.
+  for (const LineSegment& line :
+       {segment(-most, 4, most, 4), segment(5, most, 5, -most), segment(-1e308, 4, 1e308, 4),
+        segment(-most, -most, most, most), segment(5, 4, most, most)}) {
+    const std::optional<LineSegment> part = clipToRectangle(line, kBox);
+    ASSERT_TRUE(part.has_value());
+    EXPECT_TRUE(part->isFinite());
+    for (const auto& [x, y] : {std::pair(part->x1, part->y1), std::pair(part->x2, part->y2)}) {
+      EXPECT_TRUE(x >= kBox.left && x <= kBox.right) << x;
+      EXPECT_TRUE(y >= kBox.top && y <= kBox.bottom) << y;
+    }
+  }
+  EXPECT_FALSE(clipToRectangle(segment(-most, -1, most, -1), kBox));
+  const Rectangle everything{-most, -most, most, most};
+  expectEqual(*clipToRectangle(segment(-most, 0.1, most, -0.3), everything), -most, 0.1, most,
+              -0.3);
+}
+
 TEST(ClipToRectangle, StaysOnTheLineAndInside) {
   test::RandomLines random(3);
   int clipped = 0;

@@ -1,4 +1,4 @@
-// Lines, matches, cameras, poses and metrics to messages and back, over the wire too.
+// Lines, matches, cameras and poses to messages and back, over the wire too.
 #include "conversions.h"
 
 #include <gtest/gtest.h>
@@ -312,67 +312,6 @@ TEST(Poses, AreNormalisedAndRefusedWithoutARotation) {
     expectError([&] { fromMessage(message); }, {"7.000000", "position"});
     message.pose.position.y = 0;
   }
-}
-
-TEST(MetricMessages, CarryEveryEntry) {
-  std_msgs::Header header;
-  header.stamp = ros::Time(1, 2);
-  DetectionEntry entry;
-  entry.setting = {LineDistance::kOrthogonal, 5};
-  entry.counts = {1, 3, 2};
-  DetectionEntry scored = entry;
-  scored.setting = {LineDistance::kStructural, 7.5};
-  scored.average_precision = 0.25;
-  const auto message = overTheWire(toMessage({entry, scored}, header, true, 9, Protocol::kPaper));
-  EXPECT_EQ(message.header.stamp, header.stamp);
-  EXPECT_TRUE(message.cumulative);
-  EXPECT_EQ(message.frames, 9U);
-  EXPECT_EQ(message.protocol, "paper");
-  ASSERT_EQ(message.entries.size(), 2U);
-  EXPECT_EQ(message.entries[0].name, "vectorized");
-  EXPECT_EQ(message.entries[0].distance, "orthogonal");
-  EXPECT_EQ(message.entries[0].threshold, 5);
-  EXPECT_TRUE(std::isnan(message.entries[0].score_threshold));
-  EXPECT_DOUBLE_EQ(message.entries[0].precision, 1.0 / 3);
-  EXPECT_DOUBLE_EQ(message.entries[0].recall, 0.5);
-  EXPECT_DOUBLE_EQ(message.entries[0].f_score, 0.4);
-  EXPECT_TRUE(std::isnan(message.entries[0].average_precision));
-  EXPECT_EQ(message.entries[1].distance, "structural");
-  EXPECT_EQ(message.entries[1].average_precision, 0.25);
-
-  const auto pairs =
-      overTheWire(toMessage(Classification{1, 2, 4}, header, false, 1, Protocol::kEvolin));
-  EXPECT_FALSE(pairs.cumulative);
-  EXPECT_EQ(pairs.frames, 1U);
-  EXPECT_EQ(pairs.protocol, "evolin");
-  ASSERT_EQ(pairs.entries.size(), 1U);
-  EXPECT_EQ(pairs.entries[0].name, "association");
-  EXPECT_EQ(pairs.entries[0].distance, "");
-  EXPECT_TRUE(std::isnan(pairs.entries[0].threshold));
-  EXPECT_EQ(pairs.entries[0].precision, 0.5);
-  EXPECT_EQ(pairs.entries[0].recall, 0.25);
-  EXPECT_TRUE(std::isnan(pairs.entries[0].average_precision));
-}
-
-TEST(MetricMessages, CarryEveryCountOfCoverage) {
-  CoverageCounts counts;
-  counts.seen = 28;
-  counts.waiting = 7;
-  counts.evaluated = 6;
-  counts.unmatched = 5;
-  counts.dropped = 4;
-  counts.no_ground_truth = 3;
-  counts.bad_ground_truth = 2;
-  counts.skipped = 1;
-  const auto message = overTheWire(toMessage(counts, std_msgs::Header()));
-  EXPECT_EQ(message.seen, 28U);
-  EXPECT_EQ(message.evaluated, 6U);
-  EXPECT_EQ(message.unmatched, 5U);
-  EXPECT_EQ(message.dropped, 4U);
-  EXPECT_EQ(message.no_ground_truth, 3U);
-  EXPECT_EQ(message.bad_ground_truth, 2U);
-  EXPECT_EQ(message.skipped, 1U);
-  EXPECT_EQ(message.no_depth + message.no_pose, 0U);
 }
 
 }  // namespace

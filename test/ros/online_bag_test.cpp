@@ -2,12 +2,15 @@
 // gives the figures of an evaluation without any topic between.
 #include <gtest/gtest.h>
 #include <ros/param.h>
+#include <std_srvs/SetBool.h>
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <memory>
 
 #include "bag_writer.h"
+#include "evolin_ros/DetectionMetrics.h"
 #include "online_stream.h"
 #include "test/support/drawn_sequence.h"
 #include "test/support/lsd_release.h"
@@ -55,13 +58,27 @@ class BagRun {
     EXPECT_TRUE(load("associator", "LineAssociator", {{"lines", "/ground_truth/lines"}}));
   }
 
-  /// Plays the bag to its end and gives the report.
-  nlohmann::json play() {
-    Process player({"/usr/bin/python3", kPlayer, "__name:=player", "__ns:=" + manager_.space()});
+  const std::string& space() const { return manager_.space(); }
+  std::filesystem::path reportFile() const { return folder_.path() / "report.json"; }
+
+  /// Plays the bag to its end, with `meanwhile` beside it, and gives the report.
+  nlohmann::json play(const std::function<void()>& meanwhile = [] {}) {
+    Process player({"/usr/bin/python3", kPlayer, "__name:=player", "__ns:=" + space()});
+    meanwhile();
     const std::optional<int> status = player.wait(2 * kPatience);
     EXPECT_TRUE(status.has_value()) << "the player did not end in time";
     EXPECT_EQ(status.value_or(-1), 0) << "the player's log says why";
-    return readReport(folder_.path() / "report.json");
+    return readReport(reportFile());
+  }
+
+  /// Of the rosbag that the player has started.
+  ::testing::AssertionResult setPaused(bool paused) {
+    std_srvs::SetBoolRequest request;
+    request.data = paused;
+    const std::string name = "/" + space().substr(1) + "_player_rosbag/pause_playback";
+    const auto answer = tryService<std_srvs::SetBool>(name, request);
+    return answer && answer->success != 0 ? ::testing::AssertionSuccess()
+                                          : ::testing::AssertionFailure() << name << " refused";
   }
 
  private:
@@ -105,6 +122,55 @@ TEST(OnlineBag, GivesTheReportOfAnEvaluationInProcess) {
   EXPECT_EQ(parameters.at("input").at("sha256"), hash);
   EXPECT_EQ(report.at("timing").at("detector").at("frames"), 12);
   EXPECT_EQ(report.at("timing").at("associator").at("frames"), 11);
+}
+
+DrawnSequence fortyFrames() {
+  DrawnSequence sequence;
+  sequence.frames = 40;
+  return sequence;
+}
+
+TEST(OnlineBag, AtTenTimesTheSpeedTheReportIsTheSame) {
+  const std::vector<SequenceFrame> frames = drawSequence(fortyFrames());
+  const TemporaryFolder folder;
+  writeBag(frames, folder.path() / "drawn.bag");
+  ros::param::set(testNamespace() + "/player/rate", 10.0);
+  BagRun run(folder.path() / "drawn.bag", availableDetector());
+  const nlohmann::json report = run.play();
+  const Expected expected = evaluateInProcess(frames);
+  ASSERT_EQ(expected.pairs.size(), 39U);
+  expectWholeReport(report, expected);
+  EXPECT_EQ(report.at("coverage").at("input_images"), 40);
+  EXPECT_EQ(report.at("provenance").at("parameters").at("input").at("rate"), 10);
+}
+
+TEST(OnlineBag, APauseIsNoEnd) {
+  const std::vector<SequenceFrame> frames = drawSequence(fortyFrames());
+  const TemporaryFolder folder;
+  writeBag(frames, folder.path() / "drawn.bag");
+  const std::string space = testNamespace();
+  ros::param::set(space + "/player/rate", 0.5);
+  ros::param::set(space + "/evaluator/save_period", 1000);
+  ros::param::set(space + "/evaluator/idle_timeout", 0.5);
+  BagRun run(folder.path() / "drawn.bag", availableDetector());
+  Collector<evolin_ros::DetectionMetrics> detection(space + "/metrics/detection/frame");
+  ASSERT_TRUE(detection.waitForPublisher());
+  const nlohmann::json report = run.play([&] {
+    ASSERT_TRUE(detection.waitForCount(10));
+    ASSERT_TRUE(run.setPaused(true));
+    // Only an evaluator without input writes: it saves what there is, and calls it no end.
+    ASSERT_TRUE(waitFor("the report of the pause",
+                        [&] { return std::filesystem::exists(run.reportFile()); }));
+    const nlohmann::json snapshot = readReport(run.reportFile());
+    EXPECT_EQ(snapshot.at("complete"), false);
+    const auto evaluated = snapshot.at("coverage").at("evaluated").get<std::size_t>();
+    EXPECT_GE(evaluated, 10U);
+    EXPECT_LT(evaluated, 40U);
+    EXPECT_EQ(detection.count(), evaluated);
+    ASSERT_TRUE(run.setPaused(false));
+  });
+  EXPECT_EQ(report.at("pass"), 1);
+  expectWholeReport(report, evaluateInProcess(frames));
 }
 
 /// Percent with one decimal, in tenths.

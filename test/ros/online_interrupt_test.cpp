@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <mutex>
-#include <thread>
 
 #include "evolin_ros/DetectionMetrics.h"
 #include "online_stream.h"
@@ -21,37 +19,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kSavePeriod = 0.2;
 /// What a busy machine may add to the period before a report is on disk, s.
 constexpr double kRoom = 1.3;
-
-/// A camera that runs until the object goes: 30 frames a second of ever later stamps.
-class Camera30 {
- public:
-  explicit Camera30(SequencePublisher* publisher)
-      : thread_([this, publisher] { run(publisher); }) {}
-  ~Camera30() {
-    stop_ = true;
-    thread_.join();
-  }
-  Camera30(const Camera30&) = delete;
-  Camera30& operator=(const Camera30&) = delete;
-
- private:
-  void run(SequencePublisher* publisher) {
-    const std::vector<SequenceFrame> drawn = drawSequence();
-    constexpr Stamp kStep = kNanosecondsPerSecond / 30;
-    Clock::time_point next = Clock::now();
-    for (int i = 0; !stop_; ++i) {
-      SequenceFrame frame = drawn[static_cast<std::size_t>(i) % drawn.size()];
-      frame.frame.stamp = drawn.front().frame.stamp + i * kStep;
-      publisher->sendImage(frame);
-      publisher->sendGroundTruth(frame);
-      next += std::chrono::nanoseconds(kStep);
-      std::this_thread::sleep_until(next);
-    }
-  }
-
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
 
 /// When each frame's figures came.
 class EvaluationTimes {

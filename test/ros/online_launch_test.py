@@ -44,7 +44,7 @@ class OnlineLaunch(unittest.TestCase):
             cls.expected = json.load(file)
         cls.detector = cls.expected['detector']
 
-    def launch(self, **arguments):
+    def launch(self, file=('evolin_ros', 'evaluate.launch'), **arguments):
         """Exit status and output of evaluate.launch; the report goes to `out` in a new folder."""
         self.work = tempfile.mkdtemp(dir=self.folder)
         environment = dict(os.environ, PWD=self.work, ROS_HOME=os.path.join(self.work, 'home'))
@@ -53,7 +53,7 @@ class OnlineLaunch(unittest.TestCase):
         arguments = {'bag': self.bag, 'output_dir': 'out', **arguments}
         if self.detector != DEFAULT_DETECTOR:
             arguments.setdefault('detector', self.detector)
-        command = ['roslaunch', '-p', str(free_port()), 'evolin_ros', 'evaluate.launch']
+        command = ['roslaunch', '-p', str(free_port()), *file]
         command += ['%s:=%s' % item for item in arguments.items()]
         process = subprocess.Popen(command, cwd=self.work, env=environment,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -122,6 +122,32 @@ class OnlineLaunch(unittest.TestCase):
         self.assertEqual(report['association']['reason'], 'not evaluated: detected lines')
         self.assertIsNone(report['association']['f_score'])
         self.assertEqual(report['association']['not_evaluated']['detected_lines'], 5)
+
+    def test_a_manager_that_runs_already_is_used(self):
+        outer = os.path.join(self.folder, 'outer.launch')
+        with open(outer, 'w') as file:
+            file.write("""<launch>
+              <arg name="bag"/> <arg name="output_dir"/> <arg name="detector" default="%s"/>
+              <node pkg="nodelet" type="nodelet" name="shared" args="manager" output="screen"/>
+              <include file="%s/launch/evaluate.launch" pass_all_args="true">
+                <arg name="external_manager" value="true"/>
+                <arg name="manager" value="/shared"/>
+              </include>
+            </launch>""" % (DEFAULT_DETECTOR, PACKAGE))
+        status, output = self.launch(file=[outer])
+        self.assertEqual(status, 0, output)
+        self.assertNotIn('evolin_manager', output)
+        report = self.report()
+        self.check_detection(report, self.expected['whole'])
+        self.assertEqual(report['association']['counts'], self.expected['whole']['association'])
+
+    def test_an_unknown_choice_of_lines_names_the_choices(self):
+        status, output = self.launch(associate='foo')
+        self.assertNotEqual(status, 0)
+        self.assertIn('associate:=foo; expected ground_truth or detected', output)
+
+    def test_the_players_patience_is_an_argument(self):
+        self.check_failure('player: waited 0.01 s for', player_timeout=0.01)
 
     def check_failure(self, cause, **arguments):
         """roslaunch of ROS Noetic ends with 0 when a required node dies: the log must tell."""

@@ -31,6 +31,24 @@ TEST(OnlineLoop, CountsNothingTwice) {
   }
 }
 
+TEST(OnlineLoop, AJumpBackToTheMiddleBeginsAPass) {
+  const std::vector<SequenceFrame> frames = drawSequence();
+  const std::vector<SequenceFrame> until_jump(frames.begin(), frames.begin() + 8);
+  const std::vector<SequenceFrame> after_jump(frames.begin() + 3, frames.end());
+  Bench bench;
+  ASSERT_TRUE(bench.play(until_jump));
+  ASSERT_TRUE(bench.play(after_jump));
+  bench.call("finish");
+
+  const nlohmann::json newest = bench.report();
+  EXPECT_EQ(newest.at("pass"), 2);
+  const Expected expected = evaluateInProcess(after_jump);
+  ASSERT_EQ(expected.frames.size(), 9U);
+  expectWholeReport(newest, expected);
+  const nlohmann::json earlier = readReport(bench.folder() / "pass_1" / "report.json");
+  expectWholeReport(earlier, evaluateInProcess(until_jump));
+}
+
 TEST(OnlineLoop, AMessageThatComesTwiceCountsOnce) {
   const std::vector<SequenceFrame> frames = drawSequence();
   const LogReader log;

@@ -24,8 +24,8 @@ namespace evolin::test {
 
 namespace {
 
-std::vector<std::string> managerCommand(const std::string& space) {
-  ros::param::set(space + "/manager/num_worker_threads", 4);
+std::vector<std::string> managerCommand(const std::string& space, int threads) {
+  ros::param::set(space + "/manager/num_worker_threads", threads);
   return {"rosrun", "nodelet", "nodelet", "manager", "__name:=manager", "__ns:=" + space};
 }
 
@@ -115,7 +115,8 @@ std::optional<int> Process::wait(double seconds) {
   return status_;
 }
 
-Manager::Manager(const std::string& space) : space_(space), process_(managerCommand(space)) {
+Manager::Manager(const std::string& space, int threads)
+    : space_(space), process_(managerCommand(space, threads)) {
   const std::string name = space + "/manager";
   const auto ready = [&] {
     return ros::service::exists(name + "/load_nodelet", false) && isConnected(name, "/rosout");

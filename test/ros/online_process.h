@@ -33,12 +33,12 @@ class Process {
   std::optional<int> status_;
 };
 
-/// A nodelet manager in a process of its own with four threads, as manager.launch has it.
+/// A nodelet manager in a process of its own, with four threads as manager.launch has it.
 class Manager {
  public:
   /// Its name is `space`/manager. Returns when it takes nodelets and its log reaches /rosout;
   /// throws std::runtime_error otherwise.
-  explicit Manager(const std::string& space);
+  explicit Manager(const std::string& space, int threads = 4);
 
   /// Whether nodelet `space`/`name` of `type` started; `remappings` count from the namespace. Set
   /// its parameters before. Throws std::runtime_error when the manager does not answer.

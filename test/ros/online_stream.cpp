@@ -8,8 +8,10 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "conversions.h"
+#include "test/support/drawn_sequence.h"
 
 namespace evolin::test {
 
@@ -110,7 +112,38 @@ void SequencePublisher::sendGroundTruth(const SequenceFrame& frame) {
   }
 }
 
-Bench::Bench(const BenchOptions& options) : manager_(testNamespace()), publisher_(space()) {
+Camera30::Camera30(SequencePublisher* publisher) : thread_([this, publisher] { run(publisher); }) {}
+
+Camera30::~Camera30() {
+  stop_ = true;
+  thread_.join();
+}
+
+void Camera30::run(SequencePublisher* publisher) const {
+  const std::vector<SequenceFrame> drawn = drawSequence();
+  constexpr Stamp kStep = kNanosecondsPerSecond / 30;
+  auto next = std::chrono::steady_clock::now();
+  for (int i = 0; !stop_; ++i) {
+    SequenceFrame frame = drawn[static_cast<std::size_t>(i) % drawn.size()];
+    frame.frame.stamp = drawn.front().frame.stamp + i * kStep;
+    publisher->sendImage(frame);
+    publisher->sendGroundTruth(frame);
+    next += std::chrono::nanoseconds(kStep);
+    std::this_thread::sleep_until(next);
+  }
+}
+
+bool loadDetector(Manager* manager, const std::string& name,
+                  const std::map<std::string, std::string>& remappings) {
+  const std::string parameter = manager->space() + "/" + name + "/detector";
+  if (!ros::param::has(parameter)) {
+    ros::param::set(parameter, availableDetector());
+  }
+  return manager->load(name, "evolin_ros/LineDetector", remappings);
+}
+
+Bench::Bench(const BenchOptions& options)
+    : manager_(testNamespace(), options.threads), publisher_(space()) {
   // All nodelets of a manager share one connection to a topic, so that a lazy one could not be seen
   // to listen.
   for (const char* method : {"detector", "associator"}) {

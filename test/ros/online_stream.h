@@ -5,10 +5,14 @@
 #include <ros/node_handle.h>
 #include <rosgraph_msgs/Log.h>
 
+#include <atomic>
 #include <boost/shared_ptr.hpp>
 #include <functional>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "evolin_ros/LineArray.h"
@@ -104,12 +108,34 @@ class SequencePublisher {
   ros::Publisher ground_truth_;
 };
 
+/// A camera that runs until the object goes: 30 drawn frames a second of ever later stamps, with
+/// their annotation.
+class Camera30 {
+ public:
+  explicit Camera30(SequencePublisher* publisher);
+  ~Camera30();
+  Camera30(const Camera30&) = delete;
+  Camera30& operator=(const Camera30&) = delete;
+
+ private:
+  void run(SequencePublisher* publisher) const;
+
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+/// Loads nodelet evolin_ros/LineDetector with availableDetector(), unless its ~detector is set
+/// already; false when it does not load.
+bool loadDetector(Manager* manager, const std::string& name = "detector",
+                  const std::map<std::string, std::string>& remappings = {});
+
 struct BenchOptions {
   std::string detector = availableDetector();
   std::string associator = "lbd";  ///< "": no associator nodelet
   std::string associated_lines = "ground_truth/lines";
   int frame_step = 1;
   double save_period = 5;
+  int threads = 4;  ///< of the manager
 };
 
 /// Evaluator, detector and associator in a manager, with a publisher that they all listen to.

@@ -32,6 +32,7 @@ class ParameterReader {
   void read(const std::string& key, std::vector<double>* values,
             double low = -std::numeric_limits<double>::infinity(),
             double high = std::numeric_limits<double>::infinity());
+  void read(const std::string& key, std::vector<int>* values, int low, int high);
   void read(const std::string& key, std::vector<std::string>* values,
             const std::vector<std::string>& accepted = {});
 
@@ -42,6 +43,7 @@ class ParameterReader {
 
  private:
   YAML::Node find(const std::string& key);
+  int wholeNumber(const std::string& key, const YAML::Node& node, int low, int high) const;
   double number(const std::string& key, const YAML::Node& node, double low, double high) const;
   std::string word(const std::string& key, const YAML::Node& node,
                    const std::vector<std::string>& accepted) const;

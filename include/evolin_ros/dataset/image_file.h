@@ -3,8 +3,13 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <string>
+#include <vector>
 
 namespace evolin {
+
+/// Of the files that count as images where a folder is listed, in lower case, with the point.
+const std::vector<std::string>& imageExtensions();
 
 /// An 8-bit image: CV_8UC1 when the file is grey, else CV_8UC3 in BGR order (transparency is
 /// dropped, 16-bit colour reduced to 8 bits). Throws ParseError naming the file when it is absent,

@@ -1,0 +1,138 @@
+// Topics of families that were not asked for do not exist.
+#include "metric_publishers.h"
+
+#include "conversions.h"
+#include "metric_messages.h"
+#include "topics.h"
+
+namespace evolin::ros_shell {
+
+namespace {
+
+template <class Message>
+void advertise(ros::NodeHandle& handle, const char* frame, const char* cumulative,
+               ros::Publisher* of_frames, ros::Publisher* of_sums) {
+  *of_frames = handle.advertise<Message>(frame, kResultQueue);
+  *of_sums = handle.advertise<Message>(cumulative, kResultQueue, true);
+}
+
+}  // namespace
+
+MetricPublishers::MetricPublishers(ros::NodeHandle& handle, const PassOptions& options)
+    : options_(options),
+      repeatability_settings_(RepeatabilityMetrics(options.motion.repeatabilities).settings()) {
+  if (wants(MetricFamily::kDetection)) {
+    advertise<evolin_ros::DetectionMetrics>(handle, topics::kDetectionFrame,
+                                            topics::kDetectionCumulative, &detection_frame_,
+                                            &detection_cumulative_);
+  }
+  if (wants(MetricFamily::kHeatmap)) {
+    advertise<evolin_ros::HeatmapMetrics>(handle, topics::kHeatmapFrame, topics::kHeatmapCumulative,
+                                          &heatmap_frame_, &heatmap_cumulative_);
+  }
+  if (wants(MetricFamily::kRepeatability)) {
+    advertise<evolin_ros::RepeatabilityMetrics>(handle, topics::kRepeatabilityFrame,
+                                                topics::kRepeatabilityCumulative,
+                                                &repeatability_frame_, &repeatability_cumulative_);
+  }
+  if (wants(MetricFamily::kAssociation)) {
+    advertise<evolin_ros::AssociationMetrics>(handle, topics::kAssociationFrame,
+                                              topics::kAssociationCumulative, &association_frame_,
+                                              &association_cumulative_);
+    advertise<evolin_ros::AssociationMetrics>(
+        handle, topics::kDetectedAssociationFrame, topics::kDetectedAssociationCumulative,
+        &detected_association_frame_, &detected_association_cumulative_);
+  }
+  if (wants(MetricFamily::kPose)) {
+    advertise<evolin_ros::PoseMetrics>(handle, topics::kPoseFrame, topics::kPoseCumulative,
+                                       &pose_frame_, &pose_cumulative_);
+  }
+  if (wants(MetricFamily::kTracks)) {
+    tracks_cumulative_ =
+        handle.advertise<evolin_ros::TrackMetrics>(topics::kTracksCumulative, kResultQueue, true);
+  }
+  coverage_ = handle.advertise<evolin_ros::Coverage>(topics::kCoverage, kResultQueue, true);
+}
+
+void MetricPublishers::publish(const EvaluationUpdate& update,
+                               const std_msgs::Header& header) const {
+  const auto headOf = [&](Stamp stamp) {
+    MetricHead head{header, false, 1, options_.evaluation.vectorized.protocol};
+    head.header.stamp = toRosTime(stamp);
+    return head;
+  };
+  if (wants(MetricFamily::kDetection)) {
+    for (const FrameRecord& frame : update.frames) {
+      if (frame.state == FrameState::kEvaluated) {
+        detection_frame_.publish(
+            detectionMessage(headOf(frame.stamp), frame.entries, frame.spatial_spread));
+      }
+    }
+  }
+  for (const HeatmapRecord& frame : update.heatmaps) {
+    heatmap_frame_.publish(heatmapMessage(
+        headOf(frame.stamp), HeatmapMetrics(options_.evaluation.heatmap).scoreThresholds(),
+        frame.counts));
+  }
+  for (const RepeatabilityRecord& pair : update.repeatability) {
+    const bool first_step = pair.frame_step == options_.motion.repeatabilities.frame_steps.front();
+    repeatability_frame_.publish(
+        repeatabilityMessage(headOf(pair.stamp), pair, repeatability_settings_, first_step));
+  }
+  if (wants(MetricFamily::kAssociation)) {
+    for (const PairRecord& pair : update.pairs) {
+      association_frame_.publish(associationMessage(headOf(pair.stamp), pair.counts));
+    }
+    for (const DetectedPairRecord& pair : update.detected_pairs) {
+      detected_association_frame_.publish(associationMessage(headOf(pair.stamp), pair.counts));
+    }
+  }
+  for (const PoseRecord& pair : update.poses) {
+    PoseErrorMetrics errors(options_.evaluation.pose_errors);
+    errors.addPair(pair.pair);
+    pose_frame_.publish(poseMessage(headOf(pair.stamp), errors,
+                                    toString(options_.motion.pose_method.strategy),
+                                    options_.frame_step, options_.auc_thresholds));
+  }
+}
+
+void MetricPublishers::publishSums(const StreamEvaluator& evaluator,
+                                   const std_msgs::Header& header) const {
+  const PassEvaluation& pass = evaluator.current();
+  const SequenceEvaluator& sums = pass.evaluator();
+  const auto headFor = [&](std::size_t frames) {
+    return MetricHead{header, true, frames, options_.evaluation.vectorized.protocol};
+  };
+  if (wants(MetricFamily::kDetection)) {
+    detection_cumulative_.publish(detectionMessage(headFor(sums.detection().frames()),
+                                                   sums.detectionEntries(), sums.spread().share()));
+  }
+  if (wants(MetricFamily::kHeatmap)) {
+    heatmap_cumulative_.publish(
+        heatmapMessage(headFor(sums.heatmapFrames()), sums.heatmapThresholds(), sums.heatmap()));
+  }
+  if (wants(MetricFamily::kRepeatability)) {
+    std::size_t pairs = 0;
+    for (const int step : options_.motion.repeatabilities.frame_steps) {
+      pairs += pass.motion().repeatability().pairs(step);
+    }
+    repeatability_cumulative_.publish(repeatabilityMessage(headFor(pairs), pass.motion()));
+  }
+  if (wants(MetricFamily::kAssociation)) {
+    association_cumulative_.publish(associationMessage(headFor(sums.association().pairs()),
+                                                       sums.association().classification()));
+    detected_association_cumulative_.publish(associationMessage(
+        headFor(sums.detectedAssociation().pairs()), sums.detectedAssociation().classification()));
+  }
+  if (wants(MetricFamily::kPose)) {
+    pose_cumulative_.publish(poseMessage(headFor(sums.pose().pairs()), sums.pose(),
+                                         toString(options_.motion.pose_method.strategy),
+                                         options_.frame_step, options_.auc_thresholds));
+  }
+  if (wants(MetricFamily::kTracks)) {
+    tracks_cumulative_.publish(trackMessage(headFor(0), pass.tracks()));
+  }
+  coverage_.publish(coverageMessage(header, evaluator.coverage()));
+}
+
+}  // namespace evolin::ros_shell

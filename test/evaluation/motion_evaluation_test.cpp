@@ -1,0 +1,314 @@
+// Depth, poses and matches join the lines of their frames, however they come; what lacks one is
+// counted.
+#include "evolin_ros/evaluation/motion_evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test/evaluation/sample_frames.h"
+#include "test/metrics/spatial_support.h"
+
+namespace evolin {
+namespace {
+
+using test::annotated;
+using test::detected;
+using test::line;
+using test::matchSet;
+
+constexpr Stamp kPeriod = kNanosecondsPerSecond / 10;
+constexpr Stamp kMillisecond = 1000000;
+
+Stamp stampOf(int frame) { return (frame + 1) * kPeriod; }
+
+/// The camera goes to the right in front of a wall with three lines: its image moves by `pixels` a
+/// frame.
+LineSegments linesAt(int frame, double pixels = 1) {
+  const double shift = pixels * frame;
+  return {line(40 - shift, 20, 70 - shift, 40, 0.9, 1),
+          line(50 - shift, 60, 90 - shift, 61, 0.8, 2),
+          line(60 - shift, 80, 61 - shift, 110, 0.7, 3)};
+}
+
+StampedPose poseAt(int frame, double pixels = 1) {
+  return {stampOf(frame), test::poseRight(pixels * frame)};
+}
+
+DepthMap wall() { return DepthMap(test::wallDepth()); }
+
+MotionOptions shortSteps() {
+  MotionOptions options;
+  options.repeatabilities.frame_steps = {1};
+  return options;
+}
+
+Camera camera() {
+  Camera result = test::wallCamera();
+  result.width = test::kWallSide;
+  result.height = test::kWallSide;
+  return result;
+}
+
+LineMatches same(std::size_t count) {
+  LineMatches matches(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    matches[i].first = static_cast<std::uint32_t>(i);
+    matches[i].second = static_cast<std::uint32_t>(i);
+  }
+  return matches;
+}
+
+/// Everything that updates brought.
+struct Collected {
+  std::vector<RepeatabilityRecord> repeatability;
+  std::vector<PoseTask> tasks;
+  std::vector<std::string> notes;
+
+  void take(MotionUpdate update) {
+    repeatability.insert(repeatability.end(), update.repeatability.begin(),
+                         update.repeatability.end());
+    tasks.insert(tasks.end(), update.pose_tasks.begin(), update.pose_tasks.end());
+    notes.insert(notes.end(), update.notes.begin(), update.notes.end());
+  }
+};
+
+void addFrame(MotionEvaluation* motion, int frame, Collected* collected) {
+  collected->take(motion->addDepth(stampOf(frame), wall()));
+  collected->take(motion->addPose(poseAt(frame)));
+  collected->take(motion->addLines(detected(stampOf(frame), linesAt(frame))));
+}
+
+TEST(MotionEvaluation, FindsTheLinesOfAWallAgain) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 4; ++frame) addFrame(&motion, frame, &collected);
+  ASSERT_EQ(collected.repeatability.size(), 3U) << "scored at once: depth and pose are exact";
+  EXPECT_EQ(collected.repeatability[2].first_stamp, stampOf(2));
+  EXPECT_EQ(collected.repeatability[2].stamp, stampOf(3));
+  for (const RepeatabilityRecord& record : collected.repeatability) {
+    for (const PairRepeatability& pair : record.pair) {
+      EXPECT_EQ(pair.repeatability(), 1);
+      EXPECT_NEAR(pair.localizationError(Protocol::kEvolin), 0, 1e-9);
+    }
+    EXPECT_EQ(record.one_to_one_by_count, 1);
+    EXPECT_EQ(record.best.used, 6U);
+  }
+  EXPECT_EQ(motion.counts().frames, 4U);
+  EXPECT_EQ(motion.counts().no_depth + motion.counts().no_pose + motion.counts().late, 0U);
+}
+
+TEST(MotionEvaluation, CountsStepsOverFramesWithoutLines) {
+  MotionOptions options;
+  options.repeatabilities.frame_steps = {2};
+  MotionEvaluation motion(options);
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 6; ++frame) {
+    collected.take(motion.addImage(stampOf(frame)));
+    if (frame != 1) addFrame(&motion, frame, &collected);
+  }
+  collected.take(motion.finish());
+  // 0-2, 2-4, 3-5; frame 1 has no lines, so neither 1-3.
+  ASSERT_EQ(collected.repeatability.size(), 3U);
+  for (const RepeatabilityRecord& record : collected.repeatability) {
+    EXPECT_EQ(record.stamp - record.first_stamp, 2 * kPeriod);
+  }
+}
+
+TEST(MotionEvaluation, WaitsForDepthAndPosesOfAnyOrder) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  for (int frame = 0; frame < 3; ++frame) {
+    collected.take(motion.addLines(detected(stampOf(frame), linesAt(frame))));
+  }
+  for (int frame = 0; frame < 3; ++frame) collected.take(motion.addPose(poseAt(frame)));
+  for (int frame = 0; frame < 3; ++frame) collected.take(motion.addDepth(stampOf(frame), wall()));
+  EXPECT_TRUE(collected.repeatability.empty()) << "no camera yet";
+  collected.take(motion.setCamera(camera()));
+  EXPECT_EQ(collected.repeatability.size(), 2U);
+}
+
+TEST(MotionEvaluation, TakesTheNearestDepthWithinTheTolerance) {
+  for (const Stamp offset : {-21 * kMillisecond, -20 * kMillisecond, -kMillisecond, kMillisecond,
+                             20 * kMillisecond, 21 * kMillisecond}) {
+    MotionEvaluation motion(shortSteps());
+    Collected collected;
+    collected.take(motion.setCamera(camera()));
+    for (int frame = 0; frame < 3; ++frame) {
+      collected.take(motion.addPose(poseAt(frame)));
+      collected.take(motion.addLines(detected(stampOf(frame), linesAt(frame))));
+      collected.take(motion.addDepth(stampOf(frame) + offset, wall()));
+    }
+    collected.take(motion.finish());
+    const bool near = std::abs(offset) <= 20 * kMillisecond;
+    EXPECT_EQ(collected.repeatability.size(), near ? 2U : 0U) << offset;
+    EXPECT_EQ(motion.counts().no_depth, near ? 0U : 3U) << offset;
+    EXPECT_EQ(motion.nearestDepthMiss().has_value(), !near);
+    if (!near) {
+      EXPECT_EQ(*motion.nearestDepthMiss(), 21 * kMillisecond);
+    }
+  }
+}
+
+TEST(MotionEvaluation, CountsWhatIsMissing) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 6; ++frame) {
+    if (frame != 1) collected.take(motion.addDepth(stampOf(frame), wall()));
+    // Without a neighbour within 0.1 s there is no interpolation.
+    if (frame < 3) collected.take(motion.addPose(poseAt(frame)));
+    collected.take(motion.addLines(detected(stampOf(frame), linesAt(frame))));
+  }
+  collected.take(motion.finish());
+  EXPECT_EQ(motion.counts().frames, 2U);
+  EXPECT_EQ(motion.counts().no_depth, 1U);
+  EXPECT_EQ(motion.counts().no_pose, 3U);
+  EXPECT_TRUE(collected.repeatability.empty()) << "0 and 2 are two steps apart";
+}
+
+TEST(MotionEvaluation, AFullBufferGoesOnAndCounts) {
+  MotionOptions options = shortSteps();
+  options.buffer = 5;
+  MotionEvaluation motion(options);
+  for (int frame = 0; frame < 20; ++frame) {
+    motion.addLines(detected(stampOf(frame), linesAt(frame)));
+    motion.addMatches(matchSet(stampOf(frame - 1), stampOf(frame), "detector", same(3)));
+  }
+  EXPECT_EQ(motion.counts().no_pose, 15U);
+  motion.finish();
+  EXPECT_EQ(motion.counts().no_pose, 20U);
+  EXPECT_EQ(motion.counts().pairs_no_pose, 20U);
+}
+
+TEST(MotionEvaluation, GivesMatchedPairsOutAsTasks) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 2; ++frame) {
+    collected.take(motion.addGroundTruth(annotated(stampOf(frame), linesAt(frame))));
+    addFrame(&motion, frame, &collected);
+  }
+  // Of detected lines, and of annotated ones of which the first is left out.
+  collected.take(motion.addMatches(matchSet(stampOf(0), stampOf(1), "detector", same(3))));
+  ASSERT_EQ(collected.tasks.size(), 1U);
+  const PoseTask& task = collected.tasks[0];
+  EXPECT_EQ(task.first_stamp, stampOf(0));
+  EXPECT_EQ(task.stamp, stampOf(1));
+  EXPECT_EQ(task.matched, 3U);
+  ASSERT_EQ(task.matches.size(), 3U);
+  EXPECT_EQ(task.matches[1].first.pixel1, Eigen::Vector2d(50, 60));
+  EXPECT_EQ(task.matches[1].second.pixel1, Eigen::Vector2d(49, 60));
+  EXPECT_NEAR(task.truth.translation.x(), -test::kMetresPerPixel, 1e-12);
+  collected.take(motion.addMatches(matchSet(stampOf(0), stampOf(1), "ground_truth", {{1, 1}})));
+  ASSERT_EQ(collected.tasks.size(), 2U);
+  EXPECT_EQ(collected.tasks[1].matches.size(), 1U);
+  EXPECT_EQ(motion.counts().pose_pairs, 2U);
+
+  collected.take(motion.addMatches(matchSet(stampOf(0), stampOf(1), "detector", {{3, 0}})));
+  EXPECT_EQ(motion.counts().pairs_skipped, 1U);
+  ASSERT_EQ(collected.notes.size(), 1U);
+  EXPECT_NE(collected.notes[0].find("line 3"), std::string::npos) << collected.notes[0];
+}
+
+TEST(MotionEvaluation, MatchesWaitForTheirFrames) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  collected.take(motion.addMatches(matchSet(stampOf(0), stampOf(1), "detector", same(3))));
+  collected.take(motion.addMatches(matchSet(stampOf(1), stampOf(2), "detector", same(3))));
+  for (int frame = 0; frame < 2; ++frame) addFrame(&motion, frame, &collected);
+  EXPECT_EQ(collected.tasks.size(), 1U);
+  collected.take(motion.finish());
+  EXPECT_EQ(motion.counts().pairs_no_pose, 1U) << "frame 2 never came";
+}
+
+TEST(MotionEvaluation, ACopyThatFinishesLeavesTheOriginalWaiting) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  addFrame(&motion, 0, &collected);
+  collected.take(motion.addLines(detected(stampOf(1), linesAt(1))));
+  MotionEvaluation copy = motion;
+  copy.finish();
+  EXPECT_EQ(copy.counts().no_pose, 1U);
+  collected.take(motion.addDepth(stampOf(1), wall()));
+  collected.take(motion.addPose(poseAt(1)));
+  EXPECT_EQ(motion.counts().frames, 2U);
+  EXPECT_EQ(collected.repeatability.size(), 1U);
+}
+
+TEST(MotionEvaluation, NamesACameraThatChanges) {
+  MotionEvaluation motion(shortSteps());
+  EXPECT_TRUE(motion.setCamera(camera()).notes.empty());
+  EXPECT_TRUE(motion.setCamera(camera()).notes.empty());
+  Camera other = camera();
+  other.fx += 1;
+  EXPECT_EQ(motion.setCamera(other).notes.size(), 1U);
+  EXPECT_TRUE(motion.setCamera(other).notes.empty()) << "said once";
+}
+
+TEST(MotionEvaluation, LateLinesAreCountedAndNotScored) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (const int frame : {0, 2, 3}) addFrame(&motion, frame, &collected);
+  EXPECT_EQ(collected.repeatability.size(), 2U) << "frame 1 was never heard of";
+  addFrame(&motion, 1, &collected);
+  EXPECT_EQ(motion.counts().late, 1U);
+  EXPECT_EQ(collected.repeatability.size(), 2U);
+}
+
+TEST(PassEvaluation, AllFamiliesComeTogetherInTheReport) {
+  PassOptions options;
+  options.motion.repeatabilities.frame_steps = {1};
+  PassEvaluation pass(options);
+  const auto take = [&](EvaluationUpdate update) { test::runTasks({}, &pass, &update); };
+  take(pass.setCamera(camera()));
+  for (int frame = 0; frame < 5; ++frame) {
+    take(pass.addDepth(stampOf(frame), wall()));
+    take(pass.addPose(poseAt(frame)));
+    take(pass.addGroundTruth(annotated(stampOf(frame), linesAt(frame))));
+    take(pass.addLines(detected(stampOf(frame), linesAt(frame))));
+    if (frame > 0) {
+      take(pass.addMatches(matchSet(stampOf(frame - 1), stampOf(frame), "detector", same(3))));
+    }
+  }
+  EXPECT_FALSE(pass.waiting());
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.heatmap.frames, 5U);
+  EXPECT_EQ(report.heatmap.counts.at(0).fScore(), 1);
+  EXPECT_EQ(report.repeatability.rows.at(0).pairs, 4U);
+  EXPECT_EQ(report.repeatability.rows.at(0).figures->repeatability, 1);
+  EXPECT_EQ(report.detected_pairs.evaluated, 4U);
+  EXPECT_EQ(report.detected_association.fScore(), 1);
+  EXPECT_EQ(report.pose.errors.pairs(), 4U);
+  EXPECT_EQ(report.pose.records.size(), 4U);
+  EXPECT_EQ(report.tracks.tracks, 3U);
+  EXPECT_EQ(report.tracks.mean_length, 5);
+  EXPECT_EQ(report.tracks.identity_switches, 0U);
+  EXPECT_EQ(report.coverage.no_depth + report.coverage.no_pose, 0U);
+  EXPECT_NE(motionsToTum(report, false).find("0.200000 0.015625 0 0 0 0 0 1"), std::string::npos)
+      << motionsToTum(report, false);
+}
+
+TEST(PassEvaluation, SkippedTasksAreCounted) {
+  PassOptions options;
+  options.families = {MetricFamily::kDetection, MetricFamily::kHeatmap};
+  PassEvaluation pass(options);
+  pass.addGroundTruth(test::handTruth(1));
+  const EvaluationUpdate update = pass.addLines(test::handLines(1));
+  ASSERT_EQ(update.tasks.size(), 1U);
+  EXPECT_TRUE(pass.waiting());
+  pass.skip(update.tasks[0]);
+  EXPECT_FALSE(pass.waiting());
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.coverage.heatmap_skipped, 1U);
+  EXPECT_EQ(report.coverage.evaluated, 1U);
+  EXPECT_EQ(whyNoHeatmap(report), "not evaluated: all frames were skipped");
+}
+
+}  // namespace
+}  // namespace evolin

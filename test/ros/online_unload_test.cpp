@@ -1,0 +1,138 @@
+// Nodelets come and go while messages stream: the manager lives, and what is left works.
+#include <gtest/gtest.h>
+#include <ros/param.h>
+
+#include <future>
+
+#include "evolin_ros/DetectionMetrics.h"
+#include "online_stream.h"
+#include "test/support/drawn_sequence.h"
+
+namespace evolin::test {
+namespace {
+
+void expectAlive(Manager* manager) {
+  const std::optional<int> status = manager->process().wait(0);
+  EXPECT_FALSE(status.has_value()) << "the manager ended with status " << *status;
+}
+
+TEST(OnlineUnload, AFinishThatWaitsIsBrokenOff) {
+  ros::param::set(testNamespace() + "/evaluator/drain_timeout", 1000);
+  Bench bench;
+  SequencePublisher& publisher = bench.publisher();
+  Collector<evolin_ros::DetectionMetrics> detection(bench.space() + "/metrics/detection/frame");
+  ASSERT_TRUE(detection.waitForPublisher());
+  // Ground truth whose lines never come is waited for.
+  SequenceFrame lonely = drawFrame({}, 0);
+  lonely.frame.stamp -= kNanosecondsPerSecond;
+  publisher.sendGroundTruth(lonely);
+  std::future<std::string> finish;
+  {
+    const Camera30 camera(&publisher);
+    ASSERT_TRUE(detection.waitForCount(5));
+    finish = std::async(std::launch::async, [&] { return bench.call("finish"); });
+    // Long beyond what an answer takes that waits for nothing.
+    ASSERT_EQ(finish.wait_for(std::chrono::milliseconds(500)), std::future_status::timeout);
+
+    ASSERT_TRUE(bench.manager().unload("evaluator"));
+    ASSERT_EQ(finish.wait_for(std::chrono::seconds(10)), std::future_status::ready);
+    // The stream went on; the next evaluator takes it up, in the folder that the first has left.
+    const std::size_t before = detection.count();
+    ASSERT_TRUE(bench.manager().load("evaluator", "evolin_ros/Evaluator"));
+    ASSERT_TRUE(detection.waitForCount(before + 5));
+  }
+  expectAlive(&bench.manager());
+  EXPECT_EQ(finish.get(), bench.folder() / "report.json");
+}
+
+TEST(OnlineUnload, WhatAnUnloadedEvaluatorHadIsOnDisk) {
+  ros::param::set(testNamespace() + "/evaluator/drain_timeout", 1000);
+  BenchOptions options;
+  options.save_period = 1000;
+  Bench bench(options);
+  const std::vector<SequenceFrame> frames = drawSequence();
+  SequenceFrame lonely = frames.front();
+  lonely.frame.stamp -= kNanosecondsPerSecond;
+  bench.publisher().sendGroundTruth(lonely);
+  ASSERT_TRUE(bench.play(frames, 0));
+  auto finish = std::async(std::launch::async, [&] { return bench.call("finish"); });
+  ASSERT_EQ(finish.wait_for(std::chrono::milliseconds(500)), std::future_status::timeout);
+  ASSERT_TRUE(bench.manager().unload("evaluator"));
+
+  finish.get();
+  const nlohmann::json report = bench.report();
+  EXPECT_EQ(report.at("complete"), false);
+  expectCoverage(report, 13, 12, {{"waiting", 1}});
+  Methods methods;
+  methods.associator = "";
+  expectDetection(report, evaluateInProcess(frames, methods));
+}
+
+TEST(OnlineUnload, ADetectionThatRunsEndsInPeace) {
+  Manager manager(testNamespace());
+  const std::string& space = manager.space();
+  SequencePublisher publisher(space);
+  Collector<evolin_ros::LineArray> lines(space + "/lines");
+  for (int round = 1; round <= 2; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    ros::param::set(space + "/slow/detector", "test_slow");
+    ros::param::set(space + "/slow/parameters/seconds", 0.5);
+    ASSERT_TRUE(loadDetector(&manager, "slow"));
+    ASSERT_TRUE(publisher.waitForListeners(1, 0, 0));
+    const Camera30 camera(&publisher);
+    // Images queue up, so that after one result the detector is at the next image.
+    const std::size_t before = lines.count();
+    ASSERT_TRUE(lines.waitForCount(before + 1));
+    ASSERT_TRUE(manager.unload("slow"));
+
+    // At 30 frames a second the slow one's last detection ends long before these have come.
+    ASSERT_TRUE(loadDetector(&manager, "quick"));
+    const std::size_t begun = lines.count();
+    ASSERT_TRUE(lines.waitForCount(begun + 25));
+    expectAlive(&manager);
+    ASSERT_TRUE(manager.unload("quick"));
+  }
+}
+
+TEST(OnlineUnload, TwentyTimesInAStreamLeaveAWorkingManager) {
+  Bench bench;
+  Manager& manager = bench.manager();
+  const std::map<std::string, std::string> lines = {{"lines", "ground_truth/lines"}};
+  Collector<evolin_ros::DetectionMetrics> detection(bench.space() + "/metrics/detection/frame");
+  {
+    const Camera30 camera(&bench.publisher());
+    for (int i = 1; i <= 20; ++i) {
+      SCOPED_TRACE("time " + std::to_string(i));
+      const std::size_t before = detection.count();
+      ASSERT_TRUE(detection.waitForCount(before + 1));
+      for (const char* name : {"detector", "evaluator"}) {
+        ASSERT_TRUE(manager.unload(name));
+      }
+      ASSERT_TRUE(manager.load("evaluator", "evolin_ros/Evaluator"));
+      ASSERT_TRUE(loadDetector(&manager));
+      if (i % 5 == 0) {
+        ASSERT_TRUE(manager.unload("associator"));
+        ASSERT_TRUE(manager.load("associator", "evolin_ros/LineAssociator", lines));
+      }
+      expectAlive(&manager);
+    }
+  }
+  // The stream's last messages go with those who listened to it.
+  for (const char* name : {"associator", "detector", "evaluator"}) {
+    ASSERT_TRUE(manager.unload(name));
+  }
+  ASSERT_TRUE(bench.publisher().waitForListeners(0, 0, 0));
+  ASSERT_TRUE(manager.load("evaluator", "evolin_ros/Evaluator"));
+  ASSERT_TRUE(loadDetector(&manager));
+  ASSERT_TRUE(manager.load("associator", "evolin_ros/LineAssociator", lines));
+  ASSERT_TRUE(manager.waitForListener("lines"));
+  ASSERT_TRUE(manager.waitForListener("matches"));
+  ASSERT_TRUE(bench.publisher().waitForListeners(1, 1, 1));
+  const std::vector<SequenceFrame> frames = drawSequence();
+  ASSERT_TRUE(bench.play(frames));
+  bench.call("finish");
+  expectWholeReport(bench.report(), evaluateInProcess(frames));
+}
+
+}  // namespace
+}  // namespace evolin::test
