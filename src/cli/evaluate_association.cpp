@@ -61,11 +61,7 @@ int evaluateAssociation(const std::vector<std::string>& arguments) {
   }
   const std::vector<ConfidenceInterval> intervals =
       intervalsFor(options, pairs.size(), [&pairs](const std::vector<std::uint32_t>& weights) {
-        Classification resampled;
-        for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-          resampled += pairs[pair] * weights[pair];
-        }
-        return figuresOf(resampled);
+        return figuresOf(weightedSum(pairs, weights));
       });
 
   const std::vector<std::string> names = {"precision", "recall", "fscore"};

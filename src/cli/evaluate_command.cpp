@@ -15,16 +15,17 @@ namespace {
 struct Family {
   std::string name;
   std::string summary;
-  int (*run)(const std::vector<std::string>& arguments);  ///< nullptr: not in this version
+  int (*run)(const std::vector<std::string>& arguments);
 };
 
 const std::vector<Family>& families() {
   static const std::vector<Family> kFamilies = {
       {"vectorized", "detected lines against true lines as vectors: precision, recall, F-score, AP",
        evaluateVectorized},
+      {"heatmap", "detected lines against true lines as pixels: precision, recall, F-score, AP",
+       evaluateHeatmap},
       {"association", "matched index pairs against true ones: precision, recall, F-score",
        evaluateAssociation},
-      {"heatmap", "detected lines against true lines as pixels", nullptr},
       {"repeatability", "lines found again in later frames: repeatability, localisation error",
        evaluateRepeatability},
       {"pose", "relative pose from matched lines: rotation and translation errors", evaluatePose},
@@ -32,17 +33,14 @@ const std::vector<Family>& families() {
   return kFamilies;
 }
 
-/// "vectorized, association or heatmap": those that this version has.
-std::string availableFamilies() {
-  std::vector<std::string> names;
-  for (const Family& family : families()) {
-    if (family.run != nullptr) {
-      names.push_back(family.name);
-    }
-  }
+/// "vectorized, heatmap or pose".
+std::string familyNames() {
   std::string text;
-  for (std::size_t index = 0; index < names.size(); ++index) {
-    text += (index == 0 ? "" : index + 1 == names.size() ? " or " : ", ") + names[index];
+  for (std::size_t index = 0; index < families().size(); ++index) {
+    text += (index == 0                       ? ""
+             : index + 1 == families().size() ? " or "
+                                              : ", ") +
+            families()[index].name;
   }
   return text;
 }
@@ -53,7 +51,7 @@ void printHelp() {
                "Families:\n";
   for (const Family& family : families()) {
     std::cout << "  " << family.name << std::string(15 - family.name.size(), ' ') << family.summary
-              << (family.run == nullptr ? " (not in this version)" : "") << '\n';
+              << '\n';
   }
   std::cout << "\nevolin evaluate FAMILY --help tells a family's options.\n"
                "Files pair by stem. Exit status: 0 done, 1 the data or the run failed, 2 wrong "
@@ -66,7 +64,7 @@ int runEvaluate(const std::vector<std::string>& arguments) {
     names.push_back(family.name);
   }
   if (arguments.empty()) {
-    throw UsageError("no metric family given; expected " + availableFamilies());
+    throw UsageError("no metric family given; expected " + familyNames());
   }
   const std::string& name = arguments[0];
   if (name == "--help" || name == "-h") {
@@ -78,10 +76,6 @@ int runEvaluate(const std::vector<std::string>& arguments) {
   if (family == families().end()) {
     throw UsageError("unknown metric family " + quote(name) + "; did you mean '" +
                      nearestWord(name, names) + "'?");
-  }
-  if (family->run == nullptr) {
-    throw UsageError("this version does not have the metric family '" + name + "' yet; expected " +
-                     availableFamilies());
   }
   return family->run({arguments.begin() + 1, arguments.end()});
 }

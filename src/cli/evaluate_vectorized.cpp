@@ -2,14 +2,13 @@
 #include <boost/program_options/value_semantic.hpp>
 #include <limits>
 
+#include "detection_inputs.h"
 #include "evaluate_families.h"
 #include "evaluate_options.h"
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/dataset/csv.h"
 #include "evolin_ros/dataset/image_file.h"
 #include "evolin_ros/metrics/vectorized.h"
-#include "file_pairing.h"
-#include "image_size.h"
 #include "options.h"
 #include "parallel.h"
 
@@ -26,11 +25,7 @@ constexpr const char* kUsage =
     "Usage: evolin evaluate vectorized --pred-lines DIR --gt-lines DIR --imgs DIR [OPTIONS]";
 
 struct Request {
-  std::string predicted;
-  std::string ground_truth;
-  std::string images;
-  std::string scores;            ///< empty: unscored
-  std::string score_thresholds;  ///< file; empty: none
+  DetectionFolders folders;
   std::vector<double> distance_thresholds = VectorizedOptions().distance_thresholds;
   EvaluateOptions common;
 };
@@ -42,17 +37,9 @@ bool readRequest(const std::vector<std::string>& arguments, Request* request) {
     thresholds += (thresholds.empty() ? "" : " ") + formatDouble(threshold);
   }
   po::options_description description("Options");
-  description.add_options()("pred-lines,p",
-                            po::value(&request->predicted)->value_name("DIR")->required(),
-                            "predicted lines, one CSV (rows x1,y1,x2,y2 in pixels) a frame")(
-      "gt-lines,g", po::value(&request->ground_truth)->value_name("DIR")->required(),
-      "true lines, under the same names")(
-      "imgs,i", po::value(&request->images)->value_name("DIR")->required(),
-      "images of the same names, for their sizes")(
-      "scores,s", po::value(&request->scores)->value_name("DIR"),
-      "scores of the predicted lines, one CSV (a score a row) a frame")(
-      "score-thresholds,S", po::value(&request->score_thresholds)->value_name("FILE"),
-      "text file of numbers; each gives figures of the lines with a higher score")(
+  addDetectionOptions("text file of numbers; each gives figures of the lines with a higher score",
+                      &request->folders, &description);
+  description.add_options()(
       "distance-thresholds,d",
       po::value(&request->distance_thresholds)
           ->value_name("PX...")
@@ -64,7 +51,7 @@ bool readRequest(const std::vector<std::string>& arguments, Request* request) {
     return false;
   }
   checkEvaluateOptions(request->common);
-  if (!request->score_thresholds.empty() && request->scores.empty()) {
+  if (!request->folders.score_thresholds.empty() && !request->folders.scored()) {
     throw UsageError(
         "--score-thresholds needs --scores: without scores there is nothing to filter");
   }
@@ -85,31 +72,14 @@ VectorizedMetrics makeMetrics(const Request& request) {
 /// Reads and scores all frames, spread over threads.
 VectorizedMetrics measure(const Request& request) {
   const VectorizedMetrics empty = makeMetrics(request);
-  const bool scored = !request.scores.empty();
-  const FileSet truth = listByStem("true lines", request.ground_truth, {".csv"});
-  const FileSet predicted = listByStem("predicted lines", request.predicted, {".csv"});
-  requireSameStems(truth, predicted);
-  FileSet scores;
-  if (scored) {
-    scores = listByStem("scores", request.scores, {".csv"});
-    requireSameStems(predicted, scores);
-  }
-  // More images than annotated frames are usual.
-  const FileSet images = listByStem("image", request.images, imageExtensions());
-  std::vector<std::string> stems;
-  for (const auto& [stem, file] : truth.files) {
-    images.at(stem);
-    stems.push_back(stem);
-  }
-
-  const int workers = threadsFor(request.common, stems.size());
+  const std::vector<DetectionFiles> frames = listDetectionFiles(request.folders);
+  const int workers = threadsFor(request.common, frames.size());
   std::vector<VectorizedMetrics> parts(static_cast<std::size_t>(workers), empty);
-  forEachTask(stems.size(), workers, [&](std::size_t task, std::size_t worker) {
-    const std::string& stem = stems[task];
-    const LineSegments lines = scored ? readScoredLinesCsv(predicted.at(stem), scores.at(stem))
-                                      : readLinesCsv(predicted.at(stem));
-    parts[worker].addFrame(static_cast<std::uint32_t>(task), stem, readImageSize(images.at(stem)),
-                           lines, readLinesCsv(truth.at(stem)), scored);
+  forEachTask(frames.size(), workers, [&](std::size_t task, std::size_t worker) {
+    const DetectionFiles& frame = frames[task];
+    parts[worker].addFrame(static_cast<std::uint32_t>(task), frame.stem, frame.readSize(),
+                           frame.readPredicted(), frame.readGroundTruth(),
+                           request.folders.scored());
   });
   VectorizedMetrics metrics = empty;
   for (const VectorizedMetrics& part : parts) {
@@ -164,10 +134,7 @@ void addClassificationEntries(const VectorizedMetrics& metrics,
     const std::vector<Classification> frames = metrics.frameClassifications(
         setting, score_threshold.value_or(-std::numeric_limits<double>::infinity()));
     const auto figuresOf = [&frames](const std::vector<std::uint32_t>& weights) {
-      Classification counts;
-      for (std::size_t frame = 0; frame < frames.size(); ++frame) {
-        counts += frames[frame] * weights[frame];
-      }
+      const Classification counts = weightedSum(frames, weights);
       return std::vector<double>{counts.precision(), counts.recall(), counts.fScore()};
     };
     const std::vector<double> values = figuresOf(std::vector<std::uint32_t>(frames.size(), 1));
@@ -194,12 +161,12 @@ int evaluateVectorized(const std::vector<std::string>& arguments) {
     return kExitDone;
   }
   std::vector<double> score_thresholds;
-  if (!request.score_thresholds.empty()) {
-    score_thresholds = readNumbers(request.score_thresholds);
+  if (!request.folders.score_thresholds.empty()) {
+    score_thresholds = readNumbers(request.folders.score_thresholds);
   }
   const VectorizedMetrics metrics = measure(request);
   std::vector<PublishedEntry> entries;
-  if (request.scores.empty()) {
+  if (!request.folders.scored()) {
     addClassificationEntries(metrics, std::nullopt, request.common, &entries);
   } else {
     addRankingEntries(metrics, request.common, &entries);

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "evolin_ros/metrics/vectorized.h"
+#include "evolin_ros/geometry/image_size.h"
 
 namespace evolin::cli {
 

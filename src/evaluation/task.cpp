@@ -2,6 +2,7 @@
 #include "evolin_ros/evaluation/task.h"
 
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/base/text.h"
 
 namespace evolin {
 
@@ -23,8 +24,14 @@ HeatmapRecord TaskRunner::measure(const HeatmapTask& task) const {
   record.stamp = task.stamp;
   HeatmapMetrics frame(heatmap_);
   try {
-    frame.addFrame(0, formatStamp(task.stamp), task.size, task.lines, task.ground_truth);
-    record.counts = frame.classifications();
+    const HeatmapOutcome outcome =
+        frame.addFrame(0, formatStamp(task.stamp), task.size, task.lines, task.ground_truth);
+    if (outcome == HeatmapOutcome::kAdded) {
+      record.counts = frame.classifications();
+    } else {
+      record.reason = "frame " + formatStamp(task.stamp) + " takes longer than the " +
+                      formatDouble(heatmap_.frame_budget) + " s that a frame may take";
+    }
   } catch (const Error& error) {
     record.reason = error.what();
   }

@@ -32,4 +32,13 @@ Classification operator*(const Classification& counts, std::uint64_t times) {
   return {counts.true_positives * times, counts.predicted * times, counts.ground_truth * times};
 }
 
+Classification weightedSum(const std::vector<Classification>& counts,
+                           const std::vector<std::uint32_t>& weights) {
+  Classification sum;
+  for (std::size_t index = 0; index < counts.size(); ++index) {
+    sum += counts[index] * weights[index];
+  }
+  return sum;
+}
+
 }  // namespace evolin

@@ -187,11 +187,12 @@ class ExactMatcher {
 
 std::vector<std::size_t> countCheapest(const PixelGrid& grid, const IndexedCells& ground_truth,
                                        const std::vector<std::vector<Cell>>& added,
-                                       double free_cost) {
+                                       double free_cost, const Deadline& deadline) {
   ExactMatcher matcher(grid, ground_truth, free_cost);
   std::vector<std::size_t> counts;
   for (const std::vector<Cell>& level : added) {
     for (const Cell cell : level) {
+      deadline.check();
       matcher.add(cell);
     }
     counts.push_back(matcher.pairs());

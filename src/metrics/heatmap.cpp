@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "evolin_ros/base/deadline.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/metrics/pixel_matching.h"
@@ -100,11 +101,15 @@ HeatmapSummary summarizeHeatmap(const std::vector<Classification>& counts) {
 }
 
 HeatmapMetrics::HeatmapMetrics(HeatmapOptions options)
-    : thresholds_(std::move(options.score_thresholds)) {
+    : thresholds_(std::move(options.score_thresholds)), frame_budget_(options.frame_budget) {
   for (const double threshold : thresholds_) {
     if (std::isnan(threshold)) {
       throw Error("score threshold nan: expected a number");
     }
+  }
+  if (!(frame_budget_ > 0)) {
+    throw Error("budget of a frame " + formatDouble(frame_budget_) +
+                ": expected a positive number of seconds");
   }
   std::sort(thresholds_.begin(), thresholds_.end(), std::greater<>());
   sums_.resize(std::max<std::size_t>(thresholds_.size(), 1));
@@ -114,6 +119,7 @@ HeatmapMetrics::Frame HeatmapMetrics::measure(std::uint32_t frame_number,
                                               const std::string& frame_name, ImageSize size,
                                               const LineSegments& predicted,
                                               const LineSegments& ground_truth) const {
+  const Deadline deadline = Deadline::after(frame_budget_);
   checkFrame(frame_name, size, predicted, ground_truth, !thresholds_.empty());
   Pixels truth;
   Canvas truth_canvas(size);
@@ -141,7 +147,7 @@ HeatmapMetrics::Frame HeatmapMetrics::measure(std::uint32_t frame_number,
     }
   }
   const std::vector<std::size_t> matched =
-      countMatchedPixels(size, pixelMatchingRule(size), truth, added);
+      countMatchedPixels(size, pixelMatchingRule(size), truth, added, deadline);
   Frame frame{frame_number, static_cast<std::uint32_t>(truth.size()), {}};
   std::uint32_t drawn = 0;
   for (std::size_t setting = 0; setting < settings(); ++setting) {
@@ -151,9 +157,9 @@ HeatmapMetrics::Frame HeatmapMetrics::measure(std::uint32_t frame_number,
   return frame;
 }
 
-void HeatmapMetrics::addFrame(std::uint32_t frame_number, const std::string& frame_name,
-                              ImageSize size, const LineSegments& predicted,
-                              const LineSegments& ground_truth) {
+HeatmapOutcome HeatmapMetrics::addFrame(std::uint32_t frame_number, const std::string& frame_name,
+                                        ImageSize size, const LineSegments& predicted,
+                                        const LineSegments& ground_truth) {
   const auto place = std::lower_bound(
       frames_.begin(), frames_.end(), frame_number,
       [](const Frame& frame, std::uint32_t value) { return frame.number < value; });
@@ -161,8 +167,13 @@ void HeatmapMetrics::addFrame(std::uint32_t frame_number, const std::string& fra
     throw Error("frame " + frame_name + ": its number " + std::to_string(frame_number) +
                 " is taken; expected every frame once");
   }
-  Frame frame = measure(frame_number, frame_name, size, predicted, ground_truth);
-  addToSums(*frames_.insert(place, std::move(frame)));
+  try {
+    Frame frame = measure(frame_number, frame_name, size, predicted, ground_truth);
+    addToSums(*frames_.insert(place, std::move(frame)));
+    return HeatmapOutcome::kAdded;
+  } catch (const DeadlineError&) {
+    return HeatmapOutcome::kOverBudget;
+  }
 }
 
 Classification HeatmapMetrics::classificationOf(const Frame& frame, std::size_t setting) {

@@ -17,9 +17,10 @@ constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
 class NestedMatcher {
  public:
-  NestedMatcher(const PixelGrid& grid, const IndexedCells& ground_truth)
+  NestedMatcher(const PixelGrid& grid, const IndexedCells& ground_truth, const Deadline& deadline)
       : grid_(grid),
         ground_truth_(ground_truth),
+        deadline_(deadline),
         free_(ground_truth.set()),
         live_(ground_truth.set()),
         owners_(ground_truth.size(), kNone),
@@ -73,6 +74,7 @@ class NestedMatcher {
 
   /// Matches `start` by a shortest augmenting path if there is one.
   void augment(Cell start) {
+    deadline_.check();
     const auto number = static_cast<std::uint32_t>(result_.predicted.size());
     queue_.clear();
     queue_.push_back(number);
@@ -123,6 +125,7 @@ class NestedMatcher {
 
   const PixelGrid& grid_;
   const IndexedCells& ground_truth_;
+  const Deadline& deadline_;
   CellSet free_;                         ///< unmatched ground-truth cells
   CellSet live_;                         ///< ground-truth cells that searches may visit
   std::vector<std::uint32_t> owners_;    ///< of ground-truth pixels: number in result_.predicted
@@ -135,8 +138,8 @@ class NestedMatcher {
 }  // namespace
 
 NestedMatching matchNested(const PixelGrid& grid, const IndexedCells& ground_truth,
-                           const std::vector<std::vector<Cell>>& added) {
-  NestedMatcher matcher(grid, ground_truth);
+                           const std::vector<std::vector<Cell>>& added, const Deadline& deadline) {
+  NestedMatcher matcher(grid, ground_truth, deadline);
   for (const std::vector<Cell>& level : added) {
     matcher.addLevel(level);
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "evolin_ros/base/deadline.h"
 #include "pixel_grid.h"
 
 namespace evolin {
@@ -16,8 +17,8 @@ struct NestedMatching {
   std::vector<std::size_t> sizes;       ///< entry k: number of pairs after level k
 };
 
-/// No cell is in two levels, nor twice in one.
+/// No cell is in two levels, nor twice in one. Throws DeadlineError.
 NestedMatching matchNested(const PixelGrid& grid, const IndexedCells& ground_truth,
-                           const std::vector<std::vector<Cell>>& added);
+                           const std::vector<std::vector<Cell>>& added, const Deadline& deadline);
 
 }  // namespace evolin

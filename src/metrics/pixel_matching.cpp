@@ -60,7 +60,8 @@ std::vector<Cell> cellsNear(const PixelGrid& grid, const CellSet& truth, const P
 std::vector<std::size_t> recount(const PixelGrid& grid, const IndexedCells& ground_truth,
                                  const std::vector<std::vector<Cell>>& added,
                                  const NestedMatching& matching,
-                                 const std::vector<std::uint32_t>& unproven, double free_cost) {
+                                 const std::vector<std::uint32_t>& unproven, double free_cost,
+                                 const Deadline& deadline) {
   DisjointParts parts(ground_truth.size());
   std::vector<std::vector<std::uint32_t>> neighbours(added.size());  // one of each added pixel
   for (std::size_t level = 0; level < added.size(); ++level) {
@@ -91,7 +92,8 @@ std::vector<std::size_t> recount(const PixelGrid& grid, const IndexedCells& grou
       }
     }
   }
-  std::vector<std::size_t> counts = countCheapest(grid, ground_truth, added_there, free_cost);
+  std::vector<std::size_t> counts =
+      countCheapest(grid, ground_truth, added_there, free_cost, deadline);
   std::size_t elsewhere = 0;
   std::size_t next = 0;
   for (std::size_t level = 0; level < counts.size(); ++level) {
@@ -115,7 +117,8 @@ PixelMatchingRule pixelMatchingRule(ImageSize size) {
 
 std::vector<std::size_t> countMatchedPixels(ImageSize size, const PixelMatchingRule& rule,
                                             const Pixels& ground_truth,
-                                            const std::vector<Pixels>& added) {
+                                            const std::vector<Pixels>& added,
+                                            const Deadline& deadline) {
   requireSize(size);
   requireRule(rule);
   const PixelGrid grid(size, rule.reach);
@@ -125,10 +128,13 @@ std::vector<std::size_t> countMatchedPixels(ImageSize size, const PixelMatchingR
   for (const Pixels& pixels : added) {
     levels.push_back(cellsNear(grid, truth.set(), pixels));
   }
-  const NestedMatching matching = matchNested(grid, truth, levels);
-  const std::vector<std::uint32_t> unproven = findUnproven(grid, truth, matching, rule.free_cost);
-  return unproven.empty() ? matching.sizes
-                          : recount(grid, truth, levels, matching, unproven, rule.free_cost);
+  deadline.check();
+  const NestedMatching matching = matchNested(grid, truth, levels, deadline);
+  const std::vector<std::uint32_t> unproven =
+      findUnproven(grid, truth, matching, rule.free_cost, deadline);
+  return unproven.empty()
+             ? matching.sizes
+             : recount(grid, truth, levels, matching, unproven, rule.free_cost, deadline);
 }
 
 }  // namespace evolin

@@ -55,8 +55,7 @@ class EvaluatorNodelet : public SafeNodelet {
     last_input_ = ros::WallTime::now();
     metrics_ = std::make_unique<MetricPublishers>(getNodeHandle(), options_.pass);
     worker_ = std::make_unique<TaskWorker>(
-        TaskOptions{options_.pass.evaluation.heatmap, options_.heatmap_budget,
-                    options_.pass.motion.pose_method},
+        TaskOptions{options_.pass.evaluation.heatmap, options_.pass.motion.pose_method},
         static_cast<std::size_t>(options_.task_queue),
         [this](const EvaluationResult& result) { onResult(result); });
     subscribe();

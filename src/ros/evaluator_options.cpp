@@ -22,6 +22,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   std::string strategy = toString(motion.pose_method.strategy);
   std::string pose_from = "topic";
   double max_time_difference = toSeconds(motion.max_time_difference);
+  double heatmap_budget = 1;
   int depth_buffer = static_cast<int>(motion.depth_buffer);
   ParameterReader reader(parameters, owner);
   reader.read("metrics", &metrics);
@@ -36,7 +37,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   reader.read("carry_over_gate", &options.pass.evaluation.carry_over_gate, 1e-6, 1e6);
   reader.read("heatmap_score_thresholds", &options.pass.evaluation.heatmap.score_thresholds, -1e300,
               1e300);
-  reader.read("heatmap_budget", &options.heatmap_budget, 0, kLongest);
+  reader.read("heatmap_budget", &heatmap_budget, 0, kLongest);
   reader.read("task_queue", &options.task_queue, 1, 1000000);
   reader.read("max_time_difference", &max_time_difference, 0, 10);
   reader.read("depth_buffer", &depth_buffer, 1, 100000);
@@ -70,6 +71,9 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   }
   motion.pose_method.protocol = vectorized.protocol;
   motion.pose_method.strategy = parsePoseStrategy(strategy);
+  if (heatmap_budget > 0) {
+    options.pass.evaluation.heatmap.frame_budget = heatmap_budget;
+  }
   motion.max_time_difference = fromSeconds(max_time_difference);
   motion.depth_buffer = static_cast<std::size_t>(depth_buffer);
   options.pose_from =

@@ -17,7 +17,6 @@ struct EvaluatorOptions {
   PoseFrom pose_from = PoseFrom::kTopic;
   std::string world_frame = "world";  ///< of tf, with or without a leading slash
   double depth_factor = 1000;  ///< stored units per metre of 16-bit depth images; TUM's files: 5000
-  double heatmap_budget = 1;   ///< s a frame's heatmap may take; longer ones count as skipped
   int task_queue = 1000;       ///< heatmaps and pose estimates that may wait for their turn
   std::string output_dir;      ///< "": a new folder under ~/.ros/evolin_ros
   double save_period = 5;      ///< s of wall time between two savings

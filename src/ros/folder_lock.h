@@ -9,9 +9,9 @@ namespace evolin::ros_shell {
 /// A lock file in the folder, held as long as this lives; a process that dies lets it go.
 class FolderLock {
  public:
-  /// `owner` is the node's name. Waits up to two seconds for a node that is just being unloaded, then
-  /// throws Error naming the folder and the node that holds it. A file system without locks keeps
-  /// nobody out.
+  /// `owner` is the node's name. Waits up to two seconds for a node that is just being unloaded,
+  /// then throws Error naming the folder and the node that holds it. A file system without locks
+  /// keeps nobody out.
   FolderLock(const std::filesystem::path& folder, const std::string& owner);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -110,6 +110,41 @@ INSTANTIATE_TEST_SUITE_P(EvaluateVectorized, GoldenSet,
                          ::testing::Values("basic", "edge", "timing"),
                          [](const auto& info) { return info.param; });
 
+void checkHeatmap(const std::filesystem::path& unscored, const std::filesystem::path& scored,
+                  const std::filesystem::path& thresholds, const std::filesystem::path& truth,
+                  const std::filesystem::path& images, const std::filesystem::path& expected) {
+  expectGolden(
+      evaluate({"heatmap", "-p", unscored.string(), "-g", truth.string(), "-i", images.string()}),
+      expected / "heatmap_unscored.json");
+  expectGolden(
+      evaluate({"heatmap", "--pred-lines", (scored / "lines").string(), "--gt-lines",
+                truth.string(), "--imgs", images.string(), "--scores", (scored / "scores").string(),
+                "--score-thresholds", thresholds.string(), "--threads", "3"}),
+      expected / "heatmap_scored.json");
+}
+
+TEST(EvaluateHeatmap, EqualsThePublishedFiguresOnTheLivingRoom) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  const std::filesystem::path sample = data() / "icl_nuim_lr_sample";
+  const std::filesystem::path predictions = sample / "predictions";
+  checkHeatmap(predictions / "unscored", predictions / "scored",
+               predictions / "heatmap_score_thresholds.txt", sample / "gt_lines", sample / "rgb",
+               data() / "golden" / "icl");
+}
+
+class GoldenHeatmap : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(GoldenHeatmap, EqualsThePublishedFigures) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  const std::filesystem::path set = data() / "golden" / "sets" / GetParam();
+  checkHeatmap(set / "scored_lines" / "lines", set / "scored_lines",
+               set / "scored_lines" / "score_thresholds.txt", set / "gt_lines", set / "images",
+               set / "expected");
+}
+
+INSTANTIATE_TEST_SUITE_P(EvaluateHeatmap, GoldenHeatmap, ::testing::Values("basic", "edge"),
+                         [](const auto& info) { return info.param; });
+
 void checkAssociation(const std::filesystem::path& folder, const std::filesystem::path& expected) {
   expectGolden(evaluate({"association", "-p", (folder / "pred_associations").string(), "-g",
                          (folder / "gt_associations").string()}),

@@ -136,12 +136,6 @@ TEST(Program, WrongUseIsStatusTwo) {
   expectWrongUse({"evaluate", "association", "extra"}, "positional");
 }
 
-TEST(Program, FamiliesOfLaterVersionsSaySo) {
-  for (const std::string family : {"heatmap"}) {
-    expectWrongUse({"evaluate", family}, "does not have the metric family '" + family + "' yet");
-  }
-}
-
 TEST_F(EvaluateTest, ValuesOutOfRangeAreWrongUse) {
   const std::vector<std::vector<std::string>> cases = {
       {"--threads", "-1"},   {"--threads", "two"}, {"--bootstrap", "-5"}, {"--format", "xml"},

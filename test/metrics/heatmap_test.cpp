@@ -308,6 +308,50 @@ TEST(HeatmapProperties, ResetKeepsTheOptionsAlone) {
   expectSame(metrics, measure(frames, {1}));
 }
 
+TEST(HeatmapBudget, AFrameThatDoesNotFitIsRefusedAndChangesNothing) {
+  const std::vector<RandomFrame> frames = randomFrames(2);
+  HeatmapOptions options;
+  options.score_thresholds = kThresholds;
+  options.frame_budget = 1e-9;  // gone before the first pixel is matched
+  HeatmapMetrics hurried(options);
+  EXPECT_EQ(hurried.addFrame(0, "f", {200, 150}, frames[0].predicted, frames[0].truth),
+            HeatmapOutcome::kOverBudget);
+  expectSame(hurried, measure(frames, {}));
+  // The number is still free, and what others measured can be merged.
+  hurried.merge(measure(frames, {0, 1}));
+  expectSame(hurried, measure(frames, {0, 1}));
+}
+
+TEST(HeatmapBudget, AFrameThatFitsIsMeasuredAsWithoutBudget) {
+  const std::vector<RandomFrame> frames = randomFrames(2);
+  HeatmapOptions options;
+  options.score_thresholds = kThresholds;
+  options.frame_budget = 3600;
+  HeatmapMetrics metrics(options);
+  for (const std::uint32_t number : {0U, 1U}) {
+    EXPECT_EQ(
+        metrics.addFrame(number, "f", {200, 150}, frames[number].predicted, frames[number].truth),
+        HeatmapOutcome::kAdded);
+  }
+  expectSame(metrics, measure(frames, {0, 1}));
+}
+
+TEST(HeatmapBudget, WrongInputIsAnErrorHoweverSmallTheBudget) {
+  HeatmapOptions options;
+  options.frame_budget = 1e-9;
+  HeatmapMetrics metrics(options);
+  test::expectError<GroundTruthError>(
+      [&] { metrics.addFrame(0, "f", kSize, {}, {segment(0, kNan, 1, 1)}); }, {"not finite"});
+}
+
+TEST(HeatmapBudget, MustBePositive) {
+  for (const double budget : {0.0, -1.0, kNan}) {
+    HeatmapOptions options;
+    options.frame_budget = budget;
+    test::expectError([&] { HeatmapMetrics metrics(options); }, {"budget of a frame", "positive"});
+  }
+}
+
 TEST(HeatmapErrors, NameFrameRowAndValueAndAddNothing) {
   const LineSegment good = segment(0, 0, 9, 0, 0.5);
   HeatmapMetrics metrics(HeatmapOptions{{0.1}});

@@ -208,6 +208,19 @@ TEST(PixelMatching, NeverFewerPairsForAHigherFreeCost) {
   }
 }
 
+TEST(PixelMatching, IsBrokenOffAtItsDeadline) {
+  const PixelMatchingRule rule = pixelMatchingRule(kSize);
+  const Deadline gone = Deadline::after(0);
+  EXPECT_TRUE(gone.passed());
+  EXPECT_FALSE(Deadline().passed());
+  EXPECT_FALSE(Deadline::after(1e300).passed());
+  const PixelLayout chain = test::shiftedChain(kSize, rule, 150);
+  EXPECT_THROW(countMatchedPixels(kSize, rule, chain.ground_truth, chain.added, gone),
+               DeadlineError);
+  EXPECT_EQ(countMatchedPixels(kSize, rule, chain.ground_truth, chain.added, Deadline::after(3600)),
+            (Counts{150, 150}));
+}
+
 TEST(PixelMatching, RefusesARuleThatIsNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Pixels one = {{0, 0}};

@@ -43,7 +43,6 @@ struct EvaluationResult {
 
 struct TaskOptions {
   HeatmapOptions heatmap;
-  double heatmap_budget = 0;  ///< s a frame may take; 0: any time
   PoseMethodOptions pose_method;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace evolin {
 
@@ -21,5 +22,9 @@ struct Classification {
 
 /// The counts of `times` copies.
 Classification operator*(const Classification& counts, std::uint64_t times);
+
+/// Each of `counts` as often as its weight says; as many weights as counts.
+Classification weightedSum(const std::vector<Classification>& counts,
+                           const std::vector<std::uint32_t>& weights);
 
 }  // namespace evolin

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,14 @@ struct HeatmapOptions {
   /// In any order; a threshold t stands for the lines with score > t. Empty: one setting with all
   /// lines, and scores do not matter.
   std::vector<double> score_thresholds;
+  /// Seconds by the steady clock that one frame may take; a frame that takes longer is refused.
+  double frame_budget = std::numeric_limits<double>::infinity();
+};
+
+/// What became of a frame.
+enum class HeatmapOutcome {
+  kAdded,
+  kOverBudget,  ///< broken off after HeatmapOptions::frame_budget; nothing was added
 };
 
 /// What a precision-recall curve over score thresholds boils down to.
@@ -37,7 +46,7 @@ HeatmapSummary summarizeHeatmap(const std::vector<Classification>& counts);
 /// protocols agree on this family.
 class HeatmapMetrics {
  public:
-  /// Throws Error when a threshold is NaN.
+  /// Throws Error when a threshold is NaN or the budget is not positive.
   explicit HeatmapMetrics(HeatmapOptions options = {});
 
   /// By falling threshold, the order of every per-setting figure below; empty without thresholds.
@@ -49,12 +58,12 @@ class HeatmapMetrics {
   /// Draws the lines at the resolution of the image and matches their pixels; about 3 ms for a
   /// hundred lines, tens of milliseconds for hundreds of lines with many thresholds. `frame_number`
   /// must be unique; `frame_name` serves messages. Lines in pixels; endpoints outside the image are
-  /// clamped to it. Throws GroundTruthError for a ground-truth line that is not finite, and Error
-  /// for a prediction that is not finite or, where there are thresholds, has no score, for an image
-  /// without size or with a diagonal above 25500 pixels, or a frame number that was there before;
-  /// nothing is added then.
-  void addFrame(std::uint32_t frame_number, const std::string& frame_name, ImageSize size,
-                const LineSegments& predicted, const LineSegments& ground_truth);
+  /// clamped to it. A frame over budget is refused, to be counted as skipped. Throws
+  /// GroundTruthError for a ground-truth line that is not finite, and Error for a prediction that
+  /// is not finite or, where there are thresholds, has no score, for an image without size or with
+  /// a diagonal above 25500 pixels, or a frame number that was there before; nothing is added then.
+  HeatmapOutcome addFrame(std::uint32_t frame_number, const std::string& frame_name, ImageSize size,
+                          const LineSegments& predicted, const LineSegments& ground_truth);
 
   std::size_t frames() const { return frames_.size(); }
 
@@ -73,7 +82,8 @@ class HeatmapMetrics {
   /// Zeros without thresholds.
   HeatmapSummary summary() const;
 
-  /// Adds everything that `other` holds, with its frame numbers; identical in any order. Throws
+  /// Adds everything that `other` holds, with its frame numbers; identical in any order. Budgets
+  /// may differ. Throws
   /// Error when thresholds differ or a frame number occurs in both; nothing is added then.
   void merge(const HeatmapMetrics& other);
 
@@ -100,6 +110,7 @@ class HeatmapMetrics {
   void mergeFrames(const std::vector<Frame>& others);
 
   std::vector<double> thresholds_;
+  double frame_budget_;
   std::vector<Frame> frames_;  ///< by rising number
   std::vector<Classification> sums_;
 };

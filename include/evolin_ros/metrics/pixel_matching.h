@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "evolin_ros/base/deadline.h"
 #include "evolin_ros/geometry/image_size.h"
 #include "evolin_ros/metrics/rasterization.h"
 
@@ -27,9 +28,11 @@ PixelMatchingRule pixelMatchingRule(ImageSize size);
 /// exact optimum in every case, also where that is less than the largest number of pairs, and for a
 /// diagonal as free cost no two optima differ in it (proof at the implementation). Pixels lie in
 /// the image; `ground_truth` has no pixel twice, nor have all levels together. Throws Error for an
-/// image without size, a reach below 1, or a free cost that is not positive and finite.
+/// image without size, a reach below 1, or a free cost that is not positive and finite, and
+/// DeadlineError when `deadline` passes before the count is known.
 std::vector<std::size_t> countMatchedPixels(ImageSize size, const PixelMatchingRule& rule,
                                             const Pixels& ground_truth,
-                                            const std::vector<Pixels>& added);
+                                            const std::vector<Pixels>& added,
+                                            const Deadline& deadline = {});
 
 }  // namespace evolin
