@@ -196,7 +196,7 @@ TEST(PixelMatchingByFlow, AgreesOnTheLivingRoom) {
   expectFlowCounts(layout, {0, 2});
 }
 
-/// 15 and 37 are among the frames whose largest matching needs a closer look.
+/// With all twenty thresholds 8 needs the exact solver and 39 the proof in finer units.
 class DenseFrame : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(DenseFrame, Agrees) {
@@ -212,7 +212,7 @@ TEST_P(DenseFrame, Agrees) {
   expectFlowCounts(layout, {0, 1, 2});
 }
 
-INSTANTIATE_TEST_SUITE_P(PixelMatchingByFlow, DenseFrame, ::testing::Values("0015", "0037"),
+INSTANTIATE_TEST_SUITE_P(PixelMatchingByFlow, DenseFrame, ::testing::Values("0008", "0039"),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

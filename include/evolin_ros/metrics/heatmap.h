@@ -55,8 +55,9 @@ class HeatmapMetrics {
   /// One a threshold; 1 without thresholds.
   std::size_t settings() const { return sums_.size(); }
 
-  /// Draws the lines at the resolution of the image and matches their pixels; about 3 ms for a
-  /// hundred lines, tens of milliseconds for hundreds of lines with many thresholds. `frame_number`
+  /// Draws the lines at the resolution of the image and matches their pixels: some milliseconds for
+  /// a hundred lines, about a hundred for hundreds of lines with many thresholds, and several times
+  /// that for the rare frame that needs the slow exact solver (see frame_budget). `frame_number`
   /// must be unique; `frame_name` serves messages. Lines in pixels; endpoints outside the image are
   /// clamped to it. A frame over budget is refused, to be counted as skipped. Throws
   /// GroundTruthError for a ground-truth line that is not finite, and Error for a prediction that
