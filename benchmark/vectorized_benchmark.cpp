@@ -64,6 +64,30 @@ void addFramesAndReadEverything(benchmark::State& state) {
 }
 BENCHMARK(addFramesAndReadEverything)->Unit(benchmark::kMillisecond);
 
+/// One more frame after so many others: its cost must not grow with them.
+void addFrameAfterMany(benchmark::State& state) {
+  const std::vector<FrameData> frames = makeSequence();
+  evolin::VectorizedMetrics metrics;
+  std::uint32_t number = 0;
+  const auto add = [&] {
+    const FrameData& frame = frames[number % frames.size()];
+    metrics.addFrame(number++, "frame", kSize, frame.predicted, frame.ground_truth, true);
+  };
+  for (std::int64_t i = 0; i < state.range(0); ++i) {
+    add();
+  }
+  // A fixed number, so that every case ends with nearly as many frames as it began.
+  for (auto _ : state) {
+    add();
+  }
+}
+BENCHMARK(addFrameAfterMany)
+    ->Arg(60)
+    ->Arg(600)
+    ->Arg(6000)
+    ->Iterations(60)
+    ->Unit(benchmark::kMicrosecond);
+
 }  // namespace
 
 BENCHMARK_MAIN();

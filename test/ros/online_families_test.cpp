@@ -282,7 +282,7 @@ TEST(OnlineFamilies, EqualTheFiguresInProcess) {
   for (const char* family : kFamilies) {
     EXPECT_EQ(report.at(family), expected.at(family)) << family;
   }
-  expectCoverage(report, kFrames, kFrames);
+  expectCoverage(report, kFrames, kFrames, {{"no_depth", 0}, {"no_pose", 0}});
   EXPECT_TRUE(heatmap.waitForCount(kFrames));
   EXPECT_TRUE(repeatability.waitForCount((kFrames - 1) + (kFrames - 5)));
   EXPECT_TRUE(pose.waitForCount(kFrames - 1));

@@ -113,7 +113,8 @@ nlohmann::json readReport(const std::filesystem::path& file);
 void expectDetection(const nlohmann::json& report, const Expected& expected);
 void expectAssociation(const nlohmann::json& report, const Expected& expected);
 
-/// `evaluated` of `seen` frames and nothing under any other reason than those given.
+/// `evaluated` of `seen` frames and nothing under any other reason than those given; frames without
+/// depth or pose are looked at only where given.
 void expectCoverage(const nlohmann::json& report, std::size_t seen, std::size_t evaluated,
                     const std::map<std::string, std::size_t>& reasons = {});
 

@@ -1,0 +1,195 @@
+// Nothing that asks the parameter server or the disk runs under the evaluation's lock.
+#include "evaluation_session.h"
+
+#include <algorithm>
+
+#include "node_parameters.h"
+
+namespace evolin::ros_shell {
+
+EvaluationSession::EvaluationSession(ros::NodeHandle& handle, ros::NodeHandle private_handle,
+                                     const EvaluatorOptions& options, const std::string& owner,
+                                     Log log)
+    : options_(options),
+      handle_(handle),
+      private_handle_(std::move(private_handle)),
+      log_(std::move(log)),
+      keeper_(options.output_dir, owner),
+      metrics_(handle, options.pass),
+      evaluator_(options.pass),
+      last_input_(ros::WallTime::now()),
+      worker_({options.pass.evaluation.heatmap, options.pass.motion.pose_method},
+              static_cast<std::size_t>(options.task_queue),
+              [this](const EvaluationResult& result) { onResult(result); }) {}
+
+void EvaluationSession::noteInput(bool of_frame) {
+  if (of_frame) {
+    const ros::WallTime now = ros::WallTime::now();
+    if (inputs_ > 0) {
+      longest_gap_ = std::max(longest_gap_, (now - last_input_).toSec());
+    }
+    last_input_ = now;
+  }
+  ++inputs_;
+}
+
+/// Gives the update's tasks to the worker; what does not fit is counted.
+void EvaluationSession::handOut(EvaluationUpdate* update) {
+  for (const EvaluationTask& task : std::exchange(update->tasks, {})) {
+    if (worker_.add(task)) {
+      continue;
+    }
+    evaluator_.skip(task);
+    if (!queue_told_) {
+      queue_told_ = true;
+      log_.warning(std::to_string(options_.task_queue) +
+                   " heatmaps and pose estimates wait already: what comes is left out and counted "
+                   "in coverage; play slower, or raise ~task_queue, or take them out of ~metrics");
+    }
+  }
+}
+
+void EvaluationSession::onResult(const EvaluationResult& result) {
+  EvaluationUpdate update;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_input_ = ros::WallTime::now();
+    ++inputs_;
+    update = evaluator_.addResult(result);
+    metrics_.publish(update, last_header_);
+  }
+  for (const std::string& note : update.notes) {
+    log_.warning(note);
+  }
+}
+
+void EvaluationSession::publishSums(bool now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const ros::WallTime begin = ros::WallTime::now();
+  if (inputs_ == published_inputs_ || (!now && begin < next_sums_)) {
+    return;
+  }
+  published_inputs_ = inputs_;
+  metrics_.publishSums(evaluator_, last_header_);
+  // On a long run the sums must not take the inputs' time.
+  constexpr double kShare = 20;
+  next_sums_ = ros::WallTime::now() + (ros::WallTime::now() - begin) * kShare;
+}
+
+/// What a report must carry to be understood later.
+void EvaluationSession::addProvenance(Report* report) const {
+  int images = 0;
+  if (private_handle_.getParam("input/images", images) && images >= 0) {
+    report->input_images = static_cast<std::size_t>(images);
+  }
+  report->provenance["parameters"] = parametersAsJson(private_handle_.getNamespace());
+  for (const std::string& name : options_.record_parameters) {
+    const std::string resolved = handle_.resolveName(name);
+    report->provenance["parameters of " + resolved] = parametersAsJson(resolved);
+  }
+}
+
+std::filesystem::path EvaluationSession::write(Report report) {
+  addProvenance(&report);
+  int newest = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    newest = evaluator_.pass();
+  }
+  return keeper_.write(std::move(report), newest);
+}
+
+void EvaluationSession::writeQuietly(Report report) {
+  try {
+    write(std::move(report));
+  } catch (const std::exception& error) {
+    if (errors_.due()) {
+      log_.error(error.what());
+    }
+  }
+}
+
+std::filesystem::path EvaluationSession::save(bool complete) {
+  // Written in the order in which they are built: a snapshot must not land on a final report.
+  const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
+  std::optional<Report> earlier;
+  Report report;
+  std::size_t inputs = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    earlier = evaluator_.previousReport();
+    report = evaluator_.report(complete);
+    inputs = inputs_;
+  }
+  if (earlier) {
+    write(std::move(*earlier));
+  }
+  std::filesystem::path file = write(std::move(report));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  saved_inputs_ = inputs;
+  return file;
+}
+
+void EvaluationSession::saveChanges() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (inputs_ == saved_inputs_) {
+      return;
+    }
+  }
+  try {
+    save(false);
+  } catch (const std::exception& error) {
+    if (errors_.due()) {
+      log_.error(error.what());
+    }
+  }
+}
+
+void EvaluationSession::saveWhenIdle() {
+  double idle = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    idle = (ros::WallTime::now() - last_input_).toSec();
+  }
+  if (idle > options_.idle_timeout) {
+    saveChanges();
+  }
+}
+
+bool EvaluationSession::drain(const std::function<bool()>& stopped,
+                              const std::function<bool()>& first_match_due) {
+  constexpr double kSettled = 0.3;
+  // A slow method's next result may be a few of its longest pauses away.
+  constexpr double kPauses = 4;
+  constexpr double kLongest = 30;
+  while (!stopped()) {
+    const bool match_due = first_match_due();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      const double idle = (ros::WallTime::now() - last_input_).toSec();
+      const double patience =
+          std::max(options_.drain_timeout, std::min(kPauses * longest_gap_, kLongest));
+      if (idle > (evaluator_.waiting() || match_due ? patience : kSettled)) {
+        return true;
+      }
+    }
+    ros::WallDuration(0.02).sleep();
+  }
+  return false;
+}
+
+void EvaluationSession::reset() {
+  {
+    const std::scoped_lock lock(save_mutex_, mutex_);
+    evaluator_.reset();
+    keeper_.startOver();
+    longest_gap_ = 0;
+    last_header_ = {};
+    published_inputs_.reset();
+  }
+  // What is latched is of figures that are forgotten.
+  publishSums(true);
+}
+
+}  // namespace evolin::ros_shell

@@ -1,0 +1,143 @@
+// What the evaluator nodelet keeps between its callbacks: the evaluation under its lock, the worker
+// of heavy tasks, the metric topics and the report on disk.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/time.h>
+#include <std_msgs/Header.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "evaluator_options.h"
+#include "evolin_ros/evaluation/stream_evaluator.h"
+#include "metric_publishers.h"
+#include "report_keeper.h"
+#include "task_worker.h"
+#include "wall_throttle.h"
+
+namespace evolin::ros_shell {
+
+/// Safe for several threads.
+class EvaluationSession {
+ public:
+  struct Log {
+    std::function<void(const std::string&)> warning;
+    std::function<void(const std::string&)> error;
+  };
+
+  /// What an input brought about that the log should tell.
+  struct Told {
+    std::vector<std::string> notes;
+    std::vector<std::string> warnings;
+    std::optional<int> finished_pass;  ///< time jumped back: this pass is over and written
+  };
+
+  /// `handle` advertises the topics, `private_handle` names the parameters that reports carry;
+  /// `owner` is the nodelet's name. Throws as ReportKeeper.
+  EvaluationSession(ros::NodeHandle& handle, ros::NodeHandle private_handle,
+                    const EvaluatorOptions& options, const std::string& owner, Log log);
+
+  const ReportKeeper& keeper() const { return keeper_; }
+
+  /// Takes a part of a frame or of a pair: `add` is called with the evaluator under the lock.
+  template <class Add>
+  Told take(const std_msgs::Header& header, const Add& add) {
+    return takeIn(&header, add);
+  }
+
+  /// Takes what belongs beside a frame, as depth and poses: a stream of them that goes on does not
+  /// keep drain() waiting.
+  template <class Add>
+  Told takeBeside(const Add& add) {
+    return takeIn(nullptr, add);
+  }
+
+  /// Sums cost more than a frame's own figures (average precision sorts all predictions), so they
+  /// go out at a period of their own, unless `now`.
+  void publishSums(bool now);
+
+  /// Writes the report, and that of the pass before, whose last parts may still have come. Returns
+  /// the path of report.json; throws Error naming the file.
+  std::filesystem::path save(bool complete);
+
+  /// A snapshot where something new came in; errors go to the log.
+  void saveChanges();
+
+  /// The same once nothing has come for the idle timeout.
+  void saveWhenIdle();
+
+  /// Returns once every frame that was heard of has its lines and matches and every task is done,
+  /// or nothing has come for so long that nothing will; false when `stopped` says so before.
+  /// `first_match_due`: whether matches may come although none has.
+  bool drain(const std::function<bool()>& stopped, const std::function<bool()>& first_match_due);
+
+  /// Forgets all figures and sends empty sums.
+  void reset();
+
+ private:
+  template <class Add>
+  Told takeIn(const std_msgs::Header* header, const Add& add) {
+    std::optional<Report> released;
+    std::optional<Report> finished;
+    EvaluationUpdate update;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      noteInput(header != nullptr);
+      update = add(&evaluator_);
+      handOut(&update);
+      if (update.new_pass) {
+        released = evaluator_.takeReleasedReport();
+        finished = evaluator_.previousReport();
+      }
+      if (header != nullptr) {
+        last_header_ = *header;
+      }
+      metrics_.publish(update, last_header_);
+    }
+    Told told{std::move(update.notes), std::move(update.warnings), std::nullopt};
+    if (released) {
+      writeQuietly(std::move(*released));
+    }
+    if (finished) {
+      told.finished_pass = finished->pass;
+      writeQuietly(std::move(*finished));
+    }
+    return told;
+  }
+
+  void noteInput(bool of_frame);
+  void handOut(EvaluationUpdate* update);
+  void onResult(const EvaluationResult& result);
+  void addProvenance(Report* report) const;
+  std::filesystem::path write(Report report);
+  void writeQuietly(Report report);
+
+  EvaluatorOptions options_;
+  ros::NodeHandle handle_;
+  ros::NodeHandle private_handle_;
+  Log log_;
+  ReportKeeper keeper_;
+  MetricPublishers metrics_;
+  WallThrottle errors_;
+  std::mutex save_mutex_;  ///< taken before mutex_
+  std::mutex mutex_;       ///< guards what follows, up to the blank line
+  StreamEvaluator evaluator_;
+  ros::WallTime last_input_;
+  double longest_gap_ = 0;  ///< between two inputs, s of wall time
+  std::size_t inputs_ = 0;
+  std::size_t saved_inputs_ = 0;
+  std::optional<std::size_t> published_inputs_ = 0;  ///< none: the sums must go out
+  ros::WallTime next_sums_;
+  std_msgs::Header last_header_;
+  bool queue_told_ = false;
+
+  TaskWorker worker_;  ///< last: its thread uses all of the above
+};
+
+}  // namespace evolin::ros_shell
