@@ -135,7 +135,7 @@ TEST(OnlineBag, AtTenTimesTheSpeedTheReportIsTheSame) {
   const TemporaryFolder folder;
   writeBag(frames, folder.path() / "drawn.bag");
   ros::param::set(testNamespace() + "/player/rate", 10.0);
-  BagRun run(folder.path() / "drawn.bag", "opencv_lsd");
+  BagRun run(folder.path() / "drawn.bag", availableDetector());
   const nlohmann::json report = run.play();
   const Expected expected = evaluateInProcess(frames);
   ASSERT_EQ(expected.pairs.size(), 39U);
@@ -152,7 +152,7 @@ TEST(OnlineBag, APauseIsNoEnd) {
   ros::param::set(space + "/player/rate", 0.5);
   ros::param::set(space + "/evaluator/save_period", 1000);
   ros::param::set(space + "/evaluator/idle_timeout", 0.5);
-  BagRun run(folder.path() / "drawn.bag", "opencv_lsd");
+  BagRun run(folder.path() / "drawn.bag", availableDetector());
   Collector<evolin_ros::DetectionMetrics> detection(space + "/metrics/detection/frame");
   ASSERT_TRUE(detection.waitForPublisher());
   const nlohmann::json report = run.play([&] {

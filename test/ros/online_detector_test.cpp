@@ -19,12 +19,6 @@ class OnlineDetector : public ::testing::Test {
 
   const std::string& space() const { return manager_.space(); }
 
-  /// Loads a nodelet with a detector that this build can run.
-  bool load(const std::string& name, const std::map<std::string, std::string>& remappings = {}) {
-    ros::param::set(space() + "/" + name + "/detector", availableDetector());
-    return manager_.load(name, "evolin_ros/LineDetector", remappings);
-  }
-
   ::testing::AssertionResult waitForImageListeners(unsigned count) {
     return publisher_.waitForListeners(count, 0, 0);
   }
@@ -46,10 +40,10 @@ class OnlineDetector : public ::testing::Test {
 };
 
 TEST_F(OnlineDetector, SubscribesWhileSomebodyListens) {
-  ASSERT_TRUE(load("detector"));
+  ASSERT_TRUE(loadDetector(&manager_));
   // Another nodelet that does listen shows that the first would have had the time to.
   ros::param::set(space() + "/eager/lazy", false);
-  ASSERT_TRUE(load("eager", {{"lines", "eager_lines"}}));
+  ASSERT_TRUE(loadDetector(&manager_, "eager", {{"lines", "eager_lines"}}));
   ASSERT_TRUE(waitForImageListeners(1));
   ASSERT_TRUE(manager_.unload("eager"));
   ASSERT_TRUE(waitForImageListeners(0));
@@ -69,7 +63,7 @@ TEST_F(OnlineDetector, SubscribesWhileSomebodyListens) {
 TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
   const std::vector<SequenceFrame> frames = drawSequence();
   ros::param::set(space() + "/detector/queue_size", 100);
-  ASSERT_TRUE(load("detector"));
+  ASSERT_TRUE(loadDetector(&manager_));
   Collector<evolin_ros::LineArray> lines(space() + "/lines");
   publisher_.frame_id = "/openni_rgb_optical_frame";  // as TUM's bags name it
   ASSERT_TRUE(waitForImageListeners(1));
@@ -107,7 +101,7 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
 
 TEST_F(OnlineDetector, DrawsOnlyForThoseWhoLook) {
   const SequenceFrame frame = drawFrame({}, 3);
-  ASSERT_TRUE(load("detector"));
+  ASSERT_TRUE(loadDetector(&manager_));
   {
     Collector<sensor_msgs::Image> pictures(space() + "/lines_image");
     ASSERT_TRUE(waitForImageListeners(1));
@@ -127,7 +121,7 @@ TEST_F(OnlineDetector, DrawsOnlyForThoseWhoLook) {
 TEST_F(OnlineDetector, TakesGreyImages) {
   SequenceFrame frame = drawFrame({}, 2);
   frame.frame.image = toGray(frame.frame.image);
-  ASSERT_TRUE(load("detector"));
+  ASSERT_TRUE(loadDetector(&manager_));
   Collector<evolin_ros::LineArray> lines(space() + "/lines");
   ASSERT_TRUE(waitForImageListeners(1));
   publisher_.sendImage(frame);

@@ -24,7 +24,10 @@ nlohmann::json toJson(const Expected& expected) {
     entries.push_back({{"distance", toString(entry.setting.distance)},
                        {"threshold", entry.setting.threshold},
                        {"counts", toJson(entry.counts)},
-                       {"average_precision", entry.average_precision.value()}});
+                       {"average_precision", nullptr}});
+    if (entry.average_precision) {
+      entries.back()["average_precision"] = *entry.average_precision;
+    }
   }
   return {{"frames", expected.frames.size()},
           {"entries", entries},

@@ -122,7 +122,7 @@ TEST(OnlineSetup, RemappedIntoNamespaces) {
                             {"bench/ground_truth/lines", "robot/camera/ground_truth/lines"},
                             {"bench/camera_info", "robot/camera/camera_info"},
                             {"bench/metrics/detection/frame", "dashboard/detection"}}));
-  ASSERT_TRUE(manager.load("robot/frontend/lsd", "evolin_ros/LineDetector",
+  ASSERT_TRUE(loadDetector(&manager, "robot/frontend/lsd",
                            {{"robot/frontend/image", "robot/camera/image"},
                             {"robot/frontend/lines", "robot/frontend/segments"}}));
   ASSERT_TRUE(manager.load("robot/frontend/lbd", "evolin_ros/LineAssociator",
@@ -158,7 +158,7 @@ TEST(OnlineSetup, TwoFrontEndsOnOneTopicAreNamed) {
   for (const std::string name : {"left", "right"}) {
     ros::param::set(space + "/" + name + "/source", "lsd of the " + name);
     ros::param::set(space + "/" + name + "/lazy", false);
-    ASSERT_TRUE(manager.load(name, "evolin_ros/LineDetector"));
+    ASSERT_TRUE(loadDetector(&manager, name));
   }
   ASSERT_TRUE(publisher.waitForListeners(1, 1, 1));
   Collector<evolin_ros::LineArray> lines(space + "/lines");
@@ -191,7 +191,7 @@ TEST(OnlineSetup, InterleavedPublishersAndLinesWithoutAStampAreNamed) {
   ros::param::set(space + "/evaluator/output_dir", folder.path().string());
   ASSERT_TRUE(manager.load("evaluator", "evolin_ros/Evaluator"));
   // A silent publisher in the manager, the second one here.
-  ASSERT_TRUE(manager.load("detector", "evolin_ros/LineDetector"));
+  ASSERT_TRUE(loadDetector(&manager));
   ros::Publisher lines = ros::NodeHandle().advertise<evolin_ros::LineArray>(space + "/lines", 100);
   ASSERT_TRUE(waitFor("the evaluator", [&] { return lines.getNumSubscribers() == 1; }));
   const std::vector<LineSet> detected = detectLines(frames, "hough_p");

@@ -133,6 +133,15 @@ void Camera30::run(SequencePublisher* publisher) const {
   }
 }
 
+bool loadDetector(Manager* manager, const std::string& name,
+                  const std::map<std::string, std::string>& remappings) {
+  const std::string parameter = manager->space() + "/" + name + "/detector";
+  if (!ros::param::has(parameter)) {
+    ros::param::set(parameter, availableDetector());
+  }
+  return manager->load(name, "evolin_ros/LineDetector", remappings);
+}
+
 Bench::Bench(const BenchOptions& options)
     : manager_(testNamespace(), options.threads), publisher_(space()) {
   // All nodelets of a manager share one connection to a topic, so that a lazy one could not be seen

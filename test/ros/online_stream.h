@@ -8,6 +8,7 @@
 #include <atomic>
 #include <boost/shared_ptr.hpp>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -122,6 +123,11 @@ class Camera30 {
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
+
+/// Loads nodelet evolin_ros/LineDetector with availableDetector(), unless its ~detector is set
+/// already; false when it does not load.
+bool loadDetector(Manager* manager, const std::string& name = "detector",
+                  const std::map<std::string, std::string>& remappings = {});
 
 struct BenchOptions {
   std::string detector = availableDetector();

@@ -77,7 +77,7 @@ TEST(OnlineUnload, ADetectionThatRunsEndsInPeace) {
     SCOPED_TRACE("round " + std::to_string(round));
     ros::param::set(space + "/slow/detector", "test_slow");
     ros::param::set(space + "/slow/parameters/seconds", 0.5);
-    ASSERT_TRUE(manager.load("slow", "evolin_ros/LineDetector"));
+    ASSERT_TRUE(loadDetector(&manager, "slow"));
     ASSERT_TRUE(publisher.waitForListeners(1, 0, 0));
     const Camera30 camera(&publisher);
     // Images queue up, so that after one result the detector is at the next image.
@@ -86,7 +86,7 @@ TEST(OnlineUnload, ADetectionThatRunsEndsInPeace) {
     ASSERT_TRUE(manager.unload("slow"));
 
     // At 30 frames a second the slow one's last detection ends long before these have come.
-    ASSERT_TRUE(manager.load("quick", "evolin_ros/LineDetector"));
+    ASSERT_TRUE(loadDetector(&manager, "quick"));
     const std::size_t begun = lines.count();
     ASSERT_TRUE(lines.waitForCount(begun + 25));
     expectAlive(&manager);
@@ -109,7 +109,7 @@ TEST(OnlineUnload, TwentyTimesInAStreamLeaveAWorkingManager) {
         ASSERT_TRUE(manager.unload(name));
       }
       ASSERT_TRUE(manager.load("evaluator", "evolin_ros/Evaluator"));
-      ASSERT_TRUE(manager.load("detector", "evolin_ros/LineDetector"));
+      ASSERT_TRUE(loadDetector(&manager));
       if (i % 5 == 0) {
         ASSERT_TRUE(manager.unload("associator"));
         ASSERT_TRUE(manager.load("associator", "evolin_ros/LineAssociator", lines));
@@ -123,7 +123,7 @@ TEST(OnlineUnload, TwentyTimesInAStreamLeaveAWorkingManager) {
   }
   ASSERT_TRUE(bench.publisher().waitForListeners(0, 0, 0));
   ASSERT_TRUE(manager.load("evaluator", "evolin_ros/Evaluator"));
-  ASSERT_TRUE(manager.load("detector", "evolin_ros/LineDetector"));
+  ASSERT_TRUE(loadDetector(&manager));
   ASSERT_TRUE(manager.load("associator", "evolin_ros/LineAssociator", lines));
   ASSERT_TRUE(manager.waitForListener("lines"));
   ASSERT_TRUE(manager.waitForListener("matches"));

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The Python behind scripts/test and scripts/demo: counting test cases, printing a report."""
+"""The Python behind scripts/test and scripts/demo (counting test cases, printing a report), and the two
+lists of packages that setup goes by."""
 
 import importlib.machinery
 import importlib.util
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 sys.dont_write_bytecode = True
 SCRIPTS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts")
@@ -166,6 +168,41 @@ class Render(unittest.TestCase):
     def test_an_object_without_any_section_is_refused(self):
         with self.assertRaises(print_report.ReportError):
             print_report.render({})
+
+
+class PackageLists(unittest.TestCase):
+    """package.xml is for rosdep on Noetic, scripts/packages/debian.txt for Debian."""
+
+    # Keys of rosdep whose Debian package is not named after them.
+    DEBIAN_NAMES = {"eigen": "libeigen3-dev", "nlohmann-json-dev": "nlohmann-json3-dev",
+                    "nodelet": "libnodeletlib-dev"}
+
+    @classmethod
+    def setUpClass(cls):
+        root = xml.etree.ElementTree.parse(os.path.join(SCRIPTS, "..", "package.xml")).getroot()
+        cls.keys = {element.text for element in root if element.tag.endswith("depend")}
+        with open(os.path.join(SCRIPTS, "packages", "debian.txt")) as file:
+            lines = [line.split("#")[0].strip() for line in file]
+        cls.listed = [line for line in lines if line]
+
+    def names(self, key):
+        word = key.replace("_", "-")
+        return {self.DEBIAN_NAMES.get(key, word), "lib%s-dev" % word, word + "-dev", "ros-" + word,
+                "python3-" + word}
+
+    def test_debian_has_what_package_xml_asks_for(self):
+        missing = [key for key in sorted(self.keys) if not self.names(key) & set(self.listed)]
+        self.assertEqual(missing, [])
+
+    def test_package_xml_has_the_libraries_of_ros_that_debian_lists(self):
+        known = set().union(*map(self.names, self.keys))
+        ros = [name for name in self.listed if name.endswith("-msgs-dev") or
+               name.startswith(("libros", "libtf2", "libtopic", "libcv-", "libimage-", "pluginlib"))]
+        self.assertGreater(len(ros), 10)
+        self.assertEqual([name for name in ros if name not in known], [])
+
+    def test_nothing_is_listed_twice(self):
+        self.assertEqual(sorted(set(self.listed)), sorted(self.listed))
 
 
 if __name__ == "__main__":
