@@ -20,6 +20,15 @@ bool equal(const Camera& a, const Camera& b) {
          a.height == b.height;
 }
 
+void requireSize(const std::string& frame, ImageSize lines, ImageSize depth) {
+  if (lines.width != depth.width || lines.height != depth.height) {
+    throw Error("frame " + frame + ": lines are of an image of " + std::to_string(lines.width) +
+                "x" + std::to_string(lines.height) + ", its depth is of " +
+                std::to_string(depth.width) + "x" + std::to_string(depth.height) +
+                "; expected depth registered to the image, of its size");
+  }
+}
+
 }  // namespace
 
 MotionEvaluation::MotionEvaluation(MotionOptions options)
@@ -34,6 +43,12 @@ MotionUpdate MotionEvaluation::setCamera(const Camera& camera) {
   MotionUpdate update;
   if (!camera_) {
     camera_ = camera;
+    if (std::any_of(camera.distortion.begin(), camera.distortion.end(),
+                    [](double value) { return value != 0; })) {
+      update.notes.emplace_back(
+          "camera_info has a distortion; depth and poses take images and lines as rectified: "
+          "repeatability and relative pose are wrong where they are not");
+    }
     resolveAll(false, &update);
     advance(false, &update);
   } else if (!camera_differs_ && !equal(*camera_, camera)) {
@@ -60,6 +75,7 @@ MotionUpdate MotionEvaluation::addLines(const LineSet& lines) {
   if (Node* node = nodeAt(lines.stamp, &update)) {
     node->detected.state = State::kWaiting;
     node->detected.lines = lines.lines;
+    node->detected.size = {lines.width, lines.height};
     unresolved_.insert(lines.stamp);
     resolve(lines.stamp, false, &update);
     advance(false, &update);
@@ -74,6 +90,7 @@ MotionUpdate MotionEvaluation::addGroundTruth(const LineSet& ground_truth) {
     if (options_.pose) {
       node->truth.state = State::kWaiting;
       node->truth.lines = ground_truth.lines;
+      node->truth.size = {ground_truth.width, ground_truth.height};
       unresolved_.insert(ground_truth.stamp);
       resolve(ground_truth.stamp, false, &update);
     }
@@ -87,6 +104,9 @@ MotionUpdate MotionEvaluation::addDepth(Stamp stamp, DepthMap depth) {
   depth_.add(stamp, std::move(depth));
   resolveAll(false, &update);
   advance(false, &update);
+  if (settled_) {
+    depth_.trim(*settled_);
+  }
   return update;
 }
 
@@ -201,9 +221,17 @@ MotionEvaluation::State MotionEvaluation::lift(Stamp stamp, bool complete, bool 
     return State::kWaiting;
   }
   State state = State::kNever;
+  if (lookup == Lookup::kNever && depth_.hasForgotten(stamp) && !depth_told_) {
+    depth_told_ = true;
+    update->notes.push_back(
+        "lines of " + formatStamp(stamp) + " came when their depth image had left the buffer of " +
+        std::to_string(options_.depth_buffer) +
+        " images; they and others of the kind count as frames without depth: raise depth_buffer");
+  }
   if (lookup == Lookup::kFound && camera_) {
     const std::string name = formatStamp(stamp);
     try {
+      requireSize(name, lifting->size, depth->size());
       if (options_.pose) {
         lifting->lifted =
             liftEndpoints(name, lifting->lines, *depth, *camera_, method_.endpoints());

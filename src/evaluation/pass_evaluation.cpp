@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/base/text.h"
 
 namespace evolin {
 
@@ -176,6 +177,16 @@ EvaluationUpdate PassEvaluation::addMatches(MatchSet matches) {
   matches_source_ = matches.source;
   matches_lines_source_ = matches.lines_source;
   newest_matches_ = std::max(matches.stamp, newest_matches_.value_or(matches.stamp));
+  if (const std::string why = whyUnusable(matches); !why.empty()) {
+    ++pair_counts_.skipped;
+    note("matches of " + formatStamp(matches.first_stamp) + " and " + formatStamp(matches.stamp) +
+             ": " + why,
+         &update);
+    return update;
+  }
+  if (wants(MetricFamily::kTracks)) {
+    keepForTracks(matches);
+  }
   take(motion_.addMatches(matches), &update);
   if (evaluatePair(matches, &update)) {
     return update;
@@ -187,6 +198,28 @@ EvaluationUpdate PassEvaluation::addMatches(MatchSet matches) {
     pending_pairs_.erase(pending_pairs_.begin());
   }
   return update;
+}
+
+/// "" for matches that may be scored once all their parts are there.
+std::string PassEvaluation::whyUnusable(const MatchSet& matches) const {
+  if (matches.first_stamp >= matches.stamp) {
+    return "the first image must be the earlier one";
+  }
+  const bool known = matches.lines_source == lines_source_ ||
+                     matches.lines_source == ground_truth_source_ || lines_source_.empty() ||
+                     ground_truth_source_.empty();
+  return known ? ""
+               : "they are between lines of " + quote(matches.lines_source) +
+                     "; expected those of the detector, " + quote(lines_source_) +
+                     ", or of the ground truth, " + quote(ground_truth_source_);
+}
+
+/// Matches come after the lines that they are between; of ones that overtake them no track is made.
+void PassEvaluation::keepForTracks(const MatchSet& matches) {
+  const auto second = entries_.find(matches.stamp);
+  if (second != entries_.end() && matches.lines_source != ground_truth_source_) {
+    second->second.earlier_matches = matches;
+  }
 }
 
 EvaluationUpdate PassEvaluation::setCamera(const Camera& camera) {
@@ -250,6 +283,16 @@ void PassEvaluation::skip(const EvaluationTask& task) {
     --heatmaps_pending_;
     ++coverage_.heatmap_skipped;
   }
+}
+
+void PassEvaluation::skipPending() {
+  if (!hasPendingTasks()) {
+    return;
+  }
+  keepNote(std::to_string(heatmaps_pending_) + " heatmaps and " + std::to_string(poses_pending_) +
+           " pose estimates were still under way when the pass was closed; they are left out");
+  coverage_.heatmap_skipped += std::exchange(heatmaps_pending_, 0);
+  coverage_.pose_skipped += std::exchange(poses_pending_, 0);
 }
 
 void PassEvaluation::evaluateFrame(Entry* entry, EvaluationUpdate* update) {
@@ -343,17 +386,11 @@ bool PassEvaluation::evaluatePair(const MatchSet& matches, EvaluationUpdate* upd
 }
 
 bool PassEvaluation::evaluateDetectedPair(const MatchSet& matches, EvaluationUpdate* update) {
-  if (!wants(MetricFamily::kAssociation) && !wants(MetricFamily::kTracks)) {
+  if (!wants(MetricFamily::kAssociation)) {
     return true;
   }
   const auto first = entries_.find(matches.first_stamp);
   const auto second = entries_.find(matches.stamp);
-  if (second != entries_.end() && wants(MetricFamily::kTracks)) {
-    second->second.earlier_matches = matches;
-  }
-  if (!wants(MetricFamily::kAssociation)) {
-    return second != entries_.end();
-  }
   if (first == entries_.end() || second == entries_.end() ||
       first->second.record.state != FrameState::kEvaluated ||
       second->second.record.state != FrameState::kEvaluated) {

@@ -32,7 +32,7 @@ CoverageCounts PassEvaluation::coverage() const {
 }
 
 bool PassEvaluation::waiting() const {
-  if (heatmaps_pending_ + poses_pending_ > 0) {
+  if (hasPendingTasks()) {
     return true;
   }
   std::optional<Stamp> newest;
@@ -55,7 +55,7 @@ Report PassEvaluation::report(bool complete) const {
   Report report;
   report.families = options_.families;
   report.protocol = options_.evaluation.vectorized.protocol;
-  report.complete = complete;
+  report.complete = complete && !hasPendingTasks();
   report.lines_source = lines_source_;
   report.ground_truth_source = ground_truth_source_;
   report.matches_source = matches_source_;
@@ -108,6 +108,9 @@ void PassEvaluation::fillDetectedAssociation(Report* report) const {
   report->detected_association = evaluator_.detectedAssociation().classification();
   report->detected_pairs = detected_pair_counts_;
   report->detected_pairs.no_ground_truth += pending_detected_pairs_.size();
+  for (const auto& [key, matches] : pending_pairs_) {
+    report->detected_pairs.no_ground_truth += betweenDetectedLines(matches) ? 1 : 0;
+  }
   report->detected_pair_records = detected_pair_records_;
   sortByStamp(&report->detected_pair_records);
 }
@@ -154,6 +157,7 @@ void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* r
   repeatability.camera = motion.hasCamera();
   repeatability.depth = motion.hasDepth();
   repeatability.poses = motion.hasPoses();
+  repeatability.nearest_depth_miss = motion.nearestDepthMiss();
   const RepeatabilityMetrics& metrics = motion.repeatability();
   for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
     const RepeatabilitySetting& setting = metrics.settings()[i];

@@ -23,10 +23,15 @@ void addReason(Json* object, const std::string& reason) {
 }
 
 Json statisticsJson(const ErrorStatistics& statistics) {
-  return {{"rmse", numberOrNull(statistics.rmse)},     {"mean", numberOrNull(statistics.mean)},
-          {"median", numberOrNull(statistics.median)}, {"std", numberOrNull(statistics.std)},
-          {"min", numberOrNull(statistics.min)},       {"max", numberOrNull(statistics.max)},
-          {"sse", numberOrNull(statistics.sse)}};
+  Json object = {
+      {"rmse", numberOrNull(statistics.rmse)},     {"mean", numberOrNull(statistics.mean)},
+      {"median", numberOrNull(statistics.median)}, {"std", numberOrNull(statistics.std)},
+      {"min", numberOrNull(statistics.min)},       {"max", numberOrNull(statistics.max)},
+      {"sse", numberOrNull(statistics.sse)}};
+  if (!std::isfinite(statistics.sse)) {
+    object["reason"] = "the errors are beyond the range of numbers";
+  }
+  return object;
 }
 
 Json statisticsJson(const PoseErrorMetrics& errors) {

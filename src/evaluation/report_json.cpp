@@ -65,12 +65,18 @@ Json detectionJson(const Report& report) {
     row["counts"] = countsJson(entry.counts);
     entries.push_back(std::move(row));
   }
-  return {{"source", report.lines_source},
-          {"ground_truth", report.ground_truth_source},
-          {"frames", report.detection_frames},
-          {"scored", report.scored},
-          {"spatial_spread", report.detection_frames > 0 ? Json(report.spatial_spread) : Json(0)},
-          {"entries", std::move(entries)}};
+  Json object = {{"source", report.lines_source},
+                 {"ground_truth", report.ground_truth_source},
+                 {"frames", report.detection_frames},
+                 {"scored", report.scored},
+                 {"spatial_spread", nullptr}};
+  if (report.detection_frames > 0) {
+    object["spatial_spread"] = report.spatial_spread;
+  } else {
+    object["reason"] = "no frame was evaluated";
+  }
+  object["entries"] = std::move(entries);
+  return object;
 }
 
 Json associationJson(const Report& report) {

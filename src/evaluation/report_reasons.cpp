@@ -1,4 +1,5 @@
 // Why a figure has no value, in a sentence each.
+#include "evolin_ros/base/text.h"
 #include "evolin_ros/evaluation/report.h"
 
 namespace evolin {
@@ -17,6 +18,14 @@ std::string whyNoDepthAndPose(const RepeatabilityReport& report) {
     return "not evaluated: no camera poses were received";
   }
   return {};
+}
+
+/// What a larger tolerance would have found.
+std::string nearestMiss(const RepeatabilityReport& report) {
+  return report.nearest_depth_miss
+             ? " (the nearest " + formatDouble(toSeconds(*report.nearest_depth_miss)) +
+                   " s away: see max_time_difference)"
+             : "";
 }
 
 }  // namespace
@@ -95,8 +104,8 @@ std::string whyNoRepeatability(const Report& report, const RepeatabilityRow& row
   const MotionCounts& counts = report.repeatability.counts;
   if (counts.frames == 0) {
     return "not evaluated: no frame had lines, depth and a pose (" +
-           std::to_string(counts.no_depth) + " without depth, " + std::to_string(counts.no_pose) +
-           " without a pose)";
+           std::to_string(counts.no_depth) + " without depth" + nearestMiss(report.repeatability) +
+           ", " + std::to_string(counts.no_pose) + " without a pose)";
   }
   return "not evaluated: no two frames " + std::to_string(row.setting.frame_step) +
          " apart both had lines, depth and a pose";
@@ -119,9 +128,9 @@ std::string whyNoPose(const Report& report) {
                                             : "not evaluated: no matches were received";
   }
   return "not evaluated: no matched pair of frames had depth and poses (" +
-         std::to_string(counts.pairs_no_depth) + " without depth, " +
-         std::to_string(counts.pairs_no_pose) + " without a pose, " +
-         std::to_string(counts.pairs_skipped) + " unusable)";
+         std::to_string(counts.pairs_no_depth) + " without depth" +
+         nearestMiss(report.repeatability) + ", " + std::to_string(counts.pairs_no_pose) +
+         " without a pose, " + std::to_string(counts.pairs_skipped) + " unusable)";
 }
 
 }  // namespace evolin

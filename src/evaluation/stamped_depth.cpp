@@ -14,7 +14,19 @@ void StampedDepth::add(Stamp stamp, DepthMap depth) {
   newest_ = std::max(stamp, newest_.value_or(stamp));
   images_.insert_or_assign(stamp, std::move(depth));
   if (images_.size() > capacity_) {
-    images_.erase(images_.begin());
+    forgetOldest();
+  }
+}
+
+void StampedDepth::forgetOldest() {
+  forgotten_ = std::max(images_.begin()->first, forgotten_.value_or(images_.begin()->first));
+  images_.erase(images_.begin());
+}
+
+void StampedDepth::trim(Stamp settled) {
+  constexpr std::ptrdiff_t kSpare = 30;
+  while (std::distance(images_.begin(), images_.lower_bound(settled)) > kSpare) {
+    forgetOldest();
   }
 }
 

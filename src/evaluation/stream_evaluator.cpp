@@ -89,6 +89,7 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& 
       update->append(marked(opened->second.setCamera(*camera_), newest_));
     }
     while (passes_.begin()->first < newest_ - 1) {
+      passes_.begin()->second.skipPending();
       released_ = passes_.begin()->second.report(true);
       released_->pass = passes_.begin()->first;
       passes_.erase(passes_.begin());
@@ -219,7 +220,11 @@ std::optional<Report> StreamEvaluator::takeReleasedReport() {
   return std::exchange(released_, std::nullopt);
 }
 
-bool StreamEvaluator::waiting() const { return current().waiting(); }
+bool StreamEvaluator::waiting() const {
+  return current().waiting() || std::any_of(passes_.begin(), passes_.end(), [](const auto& pass) {
+           return pass.second.hasPendingTasks();
+         });
+}
 
 void StreamEvaluator::reset() {
   const std::uint64_t generation = generation_ + 1;

@@ -14,9 +14,26 @@ EvaluationResult TaskRunner::run(const EvaluationTask& task) const {
   if (const auto* heatmap = std::get_if<HeatmapTask>(&task.work)) {
     result.record = measure(*heatmap);
   } else {
-    result.record = runPoseTask(std::get<PoseTask>(task.work), pose_method_);
+    result.record = estimate(std::get<PoseTask>(task.work));
   }
   return result;
+}
+
+/// Whatever a solver throws ends here: the thread that runs tasks has nobody to catch it.
+PoseRecord TaskRunner::estimate(const PoseTask& task) const {
+  try {
+    return runPoseTask(task, pose_method_);
+  } catch (const std::exception& error) {
+    PoseRecord record;
+    record.first_stamp = task.first_stamp;
+    record.stamp = task.stamp;
+    record.matched = task.matched;
+    record.with_depth = task.matches.size();
+    record.truth = task.truth;
+    record.pair.moved = task.truth.translation.norm();
+    record.reason = error.what();
+    return record;
+  }
 }
 
 HeatmapRecord TaskRunner::measure(const HeatmapTask& task) const {
@@ -32,7 +49,7 @@ HeatmapRecord TaskRunner::measure(const HeatmapTask& task) const {
       record.reason = "frame " + formatStamp(task.stamp) + " takes longer than the " +
                       formatDouble(heatmap_.frame_budget) + " s that a frame may take";
     }
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     record.reason = error.what();
   }
   return record;

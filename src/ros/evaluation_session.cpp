@@ -7,12 +7,12 @@
 
 namespace evolin::ros_shell {
 
-EvaluationSession::EvaluationSession(ros::NodeHandle& handle, ros::NodeHandle private_handle,
+EvaluationSession::EvaluationSession(ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                                      const EvaluatorOptions& options, const std::string& owner,
                                      Log log)
     : options_(options),
       handle_(handle),
-      private_handle_(std::move(private_handle)),
+      private_handle_(private_handle),
       log_(std::move(log)),
       keeper_(options.output_dir, owner),
       metrics_(handle, options.pass),
@@ -183,6 +183,8 @@ void EvaluationSession::reset() {
   {
     const std::scoped_lock lock(save_mutex_, mutex_);
     evaluator_.reset();
+    worker_.clear();
+    queue_told_ = false;
     keeper_.startOver();
     longest_gap_ = 0;
     last_header_ = {};

@@ -40,7 +40,7 @@ class EvaluationSession {
 
   /// `handle` advertises the topics, `private_handle` names the parameters that reports carry;
   /// `owner` is the nodelet's name. Throws as ReportKeeper.
-  EvaluationSession(ros::NodeHandle& handle, ros::NodeHandle private_handle,
+  EvaluationSession(ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                     const EvaluatorOptions& options, const std::string& owner, Log log);
 
   const ReportKeeper& keeper() const { return keeper_; }

@@ -146,7 +146,7 @@ class EvaluatorNodelet : public SafeNodelet {
   }
 
   void takeCamera(const sensor_msgs::CameraInfo& message) {
-    if (!motion_inputs_ || camera_refused_) {
+    if (!motion_inputs_) {
       return;
     }
     try {
@@ -154,9 +154,8 @@ class EvaluatorNodelet : public SafeNodelet {
       takeBeside(topics::kCameraInfo,
                  [&](StreamEvaluator* evaluator) { return evaluator->setCamera(camera); });
     } catch (const Error& error) {
-      camera_refused_ = true;
-      NODELET_WARN("%s: %s; repeatability and relative pose are not evaluated",
-                   getNodeHandle().resolveName(topics::kCameraInfo).c_str(), error.what());
+      warn(getNodeHandle().resolveName(topics::kCameraInfo) + ": " + error.what() +
+           "; without intrinsics, repeatability and relative pose are not evaluated");
     }
   }
 
@@ -193,9 +192,14 @@ class EvaluatorNodelet : public SafeNodelet {
 
   void tell(const std::string& topic, const EvaluationSession::Told& told) {
     for (const std::string& note : told.notes) {
-      warn(topic + ": " + note);
+      if (warnings_.due()) {
+        NODELET_WARN("%s: %s", topic.c_str(), note.c_str());
+      }
     }
     if (told.finished_pass) {
+      if (motion_inputs_) {
+        motion_inputs_->startPass();
+      }
       NODELET_INFO("%s: time jumped back, pass %d begins", topic.c_str(), *told.finished_pass + 1);
     }
   }
@@ -241,7 +245,6 @@ class EvaluatorNodelet : public SafeNodelet {
   std::atomic<bool> matches_heard_{false};
 
   EvaluatorOptions options_;
-  bool camera_refused_ = false;
   std::set<std::string> crowded_;  ///< topics of several publishers that a warning has named
   WallThrottle warnings_;
   std::unique_ptr<EvaluationSession> session_;

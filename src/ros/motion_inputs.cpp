@@ -31,8 +31,25 @@ MotionInputs::MotionInputs(ros::NodeHandle& handle, const EvaluatorOptions& opti
 }
 
 void MotionInputs::wantPose(const std_msgs::Header& header) {
-  if (tf_) {
+  if (!tf_) {
+    return;
+  }
+  try {
     give(tf_->ask(fromRos(header.stamp), header.frame_id));
+  } catch (const std::exception& error) {
+    callbacks_.unusable(error.what());
+  }
+  // A tree that lags catches up; one that does not hold the frames never does.
+  constexpr std::size_t kManyPending = 30;
+  if (tf_->pending() > kManyPending) {
+    callbacks_.unusable("tf knows no pose for " + std::to_string(tf_->pending()) +
+                        " frames: " + tf_->whyWaiting());
+  }
+}
+
+void MotionInputs::startPass() {
+  if (tf_) {
+    tf_->startPass();
   }
 }
 
@@ -53,7 +70,11 @@ void MotionInputs::onPose(const topic_tools::ShapeShifter::ConstPtr& message) {
 }
 
 void MotionInputs::onTf(const tf2_msgs::TFMessageConstPtr& message, bool is_static) {
-  give(tf_->add(*message, is_static));
+  try {
+    give(tf_->add(*message, is_static));
+  } catch (const std::exception& error) {
+    callbacks_.unusable(error.what());
+  }
 }
 
 void MotionInputs::give(const std::vector<StampedPose>& poses) {

@@ -35,8 +35,8 @@ class MotionInputs {
   /// Lines or an image of this header were heard of: their pose is wanted.
   void wantPose(const std_msgs::Header& header);
 
-  /// Why the pose of the oldest frame is still unknown, as far as tf can tell; "" otherwise.
-  std::string whyNoPose() const { return tf_ ? tf_->whyWaiting() : std::string(); }
+  /// The sequence begins anew.
+  void startPass();
 
  private:
   void onDepth(const sensor_msgs::ImageConstPtr& message);

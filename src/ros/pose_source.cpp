@@ -79,8 +79,7 @@ std::vector<StampedPose> TfPoses::ask(Stamp stamp, const std::string& camera_fra
   if (camera_frame.empty() || (answered_ && stamp <= *answered_)) {
     return {};
   }
-  camera_frame_ = withoutLeadingSlash(camera_frame);
-  pending_.insert(stamp);
+  pending_.emplace(stamp, withoutLeadingSlash(camera_frame));
   if (pending_.size() > kMostPending) {
     pending_.erase(pending_.begin());
   }
@@ -92,14 +91,15 @@ std::string TfPoses::whyWaiting() const {
     return {};
   }
   std::string error;
-  buffer_.canTransform(world_frame_, camera_frame_, toRosTime(*pending_.begin()), &error);
+  const auto& [stamp, camera_frame] = *pending_.begin();
+  buffer_.canTransform(world_frame_, camera_frame, toRosTime(stamp), &error);
   return error;
 }
 
-TfPoses::Answer TfPoses::lookUp(Stamp stamp, Pose* pose) const {
+TfPoses::Answer TfPoses::lookUp(Stamp stamp, const std::string& camera_frame, Pose* pose) const {
   try {
     const geometry_msgs::TransformStamped found =
-        buffer_.lookupTransform(world_frame_, camera_frame_, toRosTime(stamp));
+        buffer_.lookupTransform(world_frame_, camera_frame, toRosTime(stamp));
     const geometry_msgs::Transform& transform = found.transform;
     geometry_msgs::Pose message;
     message.position.x = transform.translation.x;
@@ -108,12 +108,14 @@ TfPoses::Answer TfPoses::lookUp(Stamp stamp, Pose* pose) const {
     message.orientation = transform.rotation;
     *pose = fromMessage(message, found.header.stamp);
     return Answer::kPose;
+  } catch (const Error&) {
+    return Answer::kNever;  // a transform that is not finite
   } catch (const tf2::TransformException&) {
     // Not known: the newest time at which it is tells whether to wait.
   }
   try {
     const geometry_msgs::TransformStamped latest =
-        buffer_.lookupTransform(world_frame_, camera_frame_, ros::Time(0));
+        buffer_.lookupTransform(world_frame_, camera_frame, ros::Time(0));
     return fromRos(latest.header.stamp) >= stamp ? Answer::kNever : Answer::kNotYet;
   } catch (const tf2::TransformException&) {
     return Answer::kNotYet;
@@ -123,9 +125,9 @@ TfPoses::Answer TfPoses::lookUp(Stamp stamp, Pose* pose) const {
 std::vector<StampedPose> TfPoses::answer() {
   std::vector<StampedPose> poses;
   while (!pending_.empty()) {
-    const Stamp stamp = *pending_.begin();
+    const auto& [stamp, camera_frame] = *pending_.begin();
     Pose pose;
-    const Answer found = lookUp(stamp, &pose);
+    const Answer found = lookUp(stamp, camera_frame, &pose);
     if (found == Answer::kNotYet) {
       break;
     }

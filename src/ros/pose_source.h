@@ -6,8 +6,8 @@
 #include <topic_tools/shape_shifter.h>
 
 #include <cstddef>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -32,9 +32,14 @@ class TfPoses {
   /// Returns what can be looked up now. A jump back in time forgets the past.
   std::vector<StampedPose> add(const tf2_msgs::TFMessage& message, bool is_static);
 
-  /// Asks for the pose of `camera_frame` ("" is passed over) at `stamp`, once. Returns what can be
-  /// looked up now.
+  /// Asks for the pose of `camera_frame` ("" is passed over) at `stamp`, once: the first frame that
+  /// is asked for at a stamp counts. Returns what can be looked up now.
   std::vector<StampedPose> ask(Stamp stamp, const std::string& camera_frame);
+
+  /// The sequence begins anew: stamps may be asked for again.
+  void startPass() { answered_.reset(); }
+
+  std::size_t pending() const { return pending_.size(); }
 
   /// What keeps the oldest question from being answered; "" when nothing is asked for.
   std::string whyWaiting() const;
@@ -42,15 +47,14 @@ class TfPoses {
  private:
   enum class Answer { kPose, kNotYet, kNever };
 
-  Answer lookUp(Stamp stamp, Pose* pose) const;
+  Answer lookUp(Stamp stamp, const std::string& camera_frame, Pose* pose) const;
   std::vector<StampedPose> answer();
 
   std::string world_frame_;
-  std::string camera_frame_;
   tf2::BufferCore buffer_;
   std::optional<Stamp> newest_;
-  std::set<Stamp> pending_;
-  std::optional<Stamp> answered_;  ///< the newest question that left
+  std::map<Stamp, std::string> pending_;  ///< with the camera's frame
+  std::optional<Stamp> answered_;         ///< the newest question that left
 };
 
 }  // namespace evolin::ros_shell

@@ -29,6 +29,11 @@ bool TaskWorker::add(EvaluationTask task) {
   return true;
 }
 
+void TaskWorker::clear() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  tasks_.clear();
+}
+
 void TaskWorker::work() {
   while (true) {
     EvaluationTask task;

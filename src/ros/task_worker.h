@@ -27,6 +27,9 @@ class TaskWorker {
   /// False, and the task is not taken, when the queue is full.
   bool add(EvaluationTask task);
 
+  /// Forgets the tasks that wait.
+  void clear();
+
  private:
   void work();
 

@@ -250,6 +250,42 @@ TEST(MotionEvaluation, NamesACameraThatChanges) {
   EXPECT_TRUE(motion.setCamera(other).notes.empty()) << "said once";
 }
 
+TEST(MotionEvaluation, RefusesDepthOfAnotherSize) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  collected.take(motion.addPose(poseAt(0)));
+  collected.take(motion.addLines(detected(stampOf(0), linesAt(0))));
+  const cv::Mat half(test::kWallSide / 2, test::kWallSide / 2, CV_32FC1, cv::Scalar(2));
+  collected.take(motion.addDepth(stampOf(0), DepthMap(half)));
+  EXPECT_EQ(motion.counts().no_depth, 1U);
+  ASSERT_EQ(collected.notes.size(), 1U);
+  EXPECT_NE(collected.notes[0].find("128x128"), std::string::npos) << collected.notes[0];
+  EXPECT_NE(collected.notes[0].find("64x64"), std::string::npos) << collected.notes[0];
+}
+
+TEST(MotionEvaluation, NamesDistortionAndDepthThatHasLeft) {
+  Camera distorted = camera();
+  distorted.distortion = {0.1, 0, 0, 0, 0};
+  MotionOptions options = shortSteps();
+  options.depth_buffer = 2;
+  MotionEvaluation motion(options);
+  Collected collected;
+  collected.take(motion.setCamera(distorted));
+  ASSERT_EQ(collected.notes.size(), 1U);
+  EXPECT_NE(collected.notes[0].find("distortion"), std::string::npos);
+  for (int frame = 0; frame < 6; ++frame) {
+    collected.take(motion.addDepth(stampOf(frame), wall()));
+    collected.take(motion.addPose(poseAt(frame)));
+  }
+  for (int frame = 0; frame < 6; ++frame) {
+    collected.take(motion.addLines(detected(stampOf(frame), linesAt(frame))));
+  }
+  EXPECT_EQ(motion.counts().no_depth, 4U);
+  ASSERT_EQ(collected.notes.size(), 2U) << "said once";
+  EXPECT_NE(collected.notes[1].find("depth_buffer"), std::string::npos) << collected.notes[1];
+}
+
 TEST(MotionEvaluation, LateLinesAreCountedAndNotScored) {
   MotionEvaluation motion(shortSteps());
   Collected collected;

@@ -327,5 +327,48 @@ TEST(PassEvaluation, KeepsAHundredNotesAndSaysHowManyMore) {
   EXPECT_EQ(report.coverage.bad_ground_truth, 130U);
 }
 
+TEST(PassEvaluation, MatchesOfOtherLinesOrBackwardsAreSkippedAndNamed) {
+  PassEvaluation pass;
+  for (const Stamp stamp : {1, 2}) {
+    pass.addGroundTruth(handTruth(stamp));
+    pass.addLines(handLines(stamp));
+  }
+  EXPECT_EQ(pass.addMatches(matchSet(1, 2, "another_detector", {{0, 0}})).notes.size(), 1U);
+  EXPECT_EQ(pass.addMatches(matchSet(2, 2, "detector", {{0, 0}})).notes.size(), 1U);
+  EXPECT_EQ(pass.addMatches(matchSet(2, 1, "detector", {{0, 0}})).notes.size(), 1U);
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.pairs.skipped, 3U);
+  EXPECT_EQ(report.detected_pairs.evaluated, 0U);
+  EXPECT_NE(report.notes.at(0).find("'another_detector'"), std::string::npos) << report.notes[0];
+}
+
+TEST(PassEvaluation, TracksNeedNoGroundTruth) {
+  PassEvaluation pass;
+  for (const Stamp stamp : {1, 2, 3}) {
+    LineSet lines = handLines(stamp);
+    for (LineSegment& line : lines.lines) line.id = kNoId;
+    pass.addLines(lines);
+    if (stamp > 1) pass.addMatches(matchSet(stamp - 1, stamp, "detector", {{0, 0}, {1, 1}}));
+  }
+  const Report report = pass.report(true);
+  EXPECT_TRUE(report.tracks.from_matches);
+  // Two lines followed through three frames, the third one new in each.
+  EXPECT_EQ(report.tracks.tracks, 5U) << report.tracks.reason;
+  EXPECT_EQ(report.tracks.longest, 3U);
+  EXPECT_EQ(report.detected_pairs.no_ground_truth, 2U);
+}
+
+TEST(PassEvaluation, IsNotCompleteWhileTasksAreUnderWay) {
+  PassEvaluation pass;
+  pass.addGroundTruth(handTruth(1));
+  const EvaluationUpdate update = pass.addLines(handLines(1));
+  ASSERT_EQ(update.tasks.size(), 1U);
+  EXPECT_FALSE(pass.report(true).complete);
+  pass.skipPending();
+  EXPECT_TRUE(pass.report(true).complete);
+  EXPECT_EQ(pass.report(true).coverage.heatmap_skipped, 1U);
+  EXPECT_EQ(pass.report(true).notes.size(), 1U);
+}
+
 }  // namespace
 }  // namespace evolin

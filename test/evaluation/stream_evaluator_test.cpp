@@ -337,5 +337,32 @@ TEST(StreamEvaluator, ResetForgetsPassesToo) {
   EXPECT_EQ(stream.report(true).detection.size(), 2U);
 }
 
+TEST(StreamEvaluator, APassThatLeavesCountsItsUnfinishedTasks) {
+  StreamEvaluator stream;
+  EvaluationTask first_task;
+  for (int pass = 1; pass <= 3; ++pass) {
+    for (const Stamp stamp : {kSecond, 2 * kSecond}) {
+      stream.addGroundTruth(test::handTruth(stamp));
+      const EvaluationUpdate update = stream.addLines(test::handLines(stamp));
+      ASSERT_EQ(update.tasks.size(), 1U);
+      EXPECT_EQ(update.tasks[0].pass, pass);
+      if (pass == 1) first_task = update.tasks[0];
+    }
+  }
+  EXPECT_TRUE(stream.waiting());
+  const std::optional<Report> released = stream.takeReleasedReport();
+  ASSERT_TRUE(released.has_value());
+  EXPECT_EQ(released->coverage.heatmap_skipped, 2U);
+  EXPECT_EQ(released->heatmap.pending, 0U);
+  // A result of the pass that is gone, or of before a reset, changes nothing.
+  const EvaluationResult late = TaskRunner({}).run(first_task);
+  EXPECT_TRUE(stream.addResult(late).heatmaps.empty());
+  stream.reset();
+  stream.addGroundTruth(test::handTruth(kSecond));
+  stream.addLines(test::handLines(kSecond));
+  EXPECT_TRUE(stream.addResult(late).heatmaps.empty());
+  EXPECT_EQ(stream.report(true).heatmap.frames, 0U);
+}
+
 }  // namespace
 }  // namespace evolin

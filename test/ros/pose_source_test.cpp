@@ -8,6 +8,8 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/serialization.h>
 
+#include <limits>
+
 #include "conversions.h"
 #include "test/support/expect_error.h"
 
@@ -105,6 +107,25 @@ TEST(TfPoses, AJumpBackBeginsAnew) {
   const std::vector<StampedPose> found = poses.add(transform("world", "camera", 2, 100), false);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].pose.translation.x(), 100, 1e-9) << "not the first pass's 1.5";
+}
+
+TEST(TfPoses, ATransformThatIsNotFiniteGivesNoPose) {
+  TfPoses poses("world");
+  poses.add(transform("world", "camera", 1, std::numeric_limits<double>::infinity()), false);
+  poses.add(transform("world", "camera", 2, std::numeric_limits<double>::infinity()), false);
+  EXPECT_TRUE(poses.ask(at(1.5), "camera").empty());
+  EXPECT_EQ(poses.pending(), 0U) << "it will never be known";
+}
+
+TEST(TfPoses, TheFirstFrameAskedForCountsAndANewPassAsksAgain) {
+  TfPoses poses("world");
+  poses.ask(at(1.5), "camera");
+  poses.ask(at(1.5), "elsewhere");
+  poses.add(transform("world", "camera", 1, 0), false);
+  ASSERT_EQ(poses.add(transform("world", "camera", 2, 1), false).size(), 1U);
+  EXPECT_TRUE(poses.ask(at(1.5), "camera").empty());
+  poses.startPass();
+  EXPECT_EQ(poses.ask(at(1.5), "camera").size(), 1U);
 }
 
 TEST(TfPoses, AFrameWithoutNameIsPassedOver) {

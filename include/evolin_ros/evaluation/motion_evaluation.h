@@ -31,7 +31,7 @@ struct MotionOptions {
   PoseMethodOptions pose_method;
   PoseErrorOptions pose_errors;
   Stamp max_time_difference = kNanosecondsPerSecond / 50;  ///< of a depth image to its image, ns
-  std::size_t depth_buffer = 100;  ///< depth images kept for lines that are still to come
+  std::size_t depth_buffer = 300;  ///< depth images kept for lines that are still to come
   std::size_t buffer = 1000;       ///< frames whose lines are kept for depth, poses and matches
 };
 
@@ -49,7 +49,7 @@ struct RepeatabilityRecord {
 /// What became of frames and pairs.
 struct MotionCounts {
   std::size_t frames = 0;          ///< with detected lines, depth and a pose
-  std::size_t no_depth = 0;        ///< with lines, but no depth image belongs to them
+  std::size_t no_depth = 0;        ///< with lines, but no usable depth image belongs to them
   std::size_t no_pose = 0;         ///< with lines, but no pose (and perhaps no depth either)
   std::size_t late = 0;            ///< lines came after later frames had been scored
   std::size_t pose_pairs = 0;      ///< given out as tasks
@@ -104,6 +104,7 @@ class MotionEvaluation {
   struct Lifting {
     State state = State::kAbsent;
     LineSegments lines;  ///< until lifted
+    ImageSize size;
     LiftedLines lifted;  ///< for relative pose
   };
   struct Node {
@@ -146,6 +147,7 @@ class MotionEvaluation {
 
   std::optional<Camera> camera_;
   bool camera_differs_ = false;
+  bool depth_told_ = false;
   StampedDepth depth_;
   Trajectory trajectory_;
   std::string lines_source_;

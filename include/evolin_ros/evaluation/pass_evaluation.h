@@ -65,6 +65,11 @@ class PassEvaluation {
   /// A task of this pass will not be run.
   void skip(const EvaluationTask& task);
 
+  /// Nor will those that are under way be waited for; a note says how many.
+  void skipPending();
+
+  bool hasPendingTasks() const { return heatmaps_pending_ + poses_pending_ > 0; }
+
   /// A message that cannot belong to any frame counts as a dropped one, a part of a pair as
   /// skipped. `text` goes to the report's notes; "" when it is there already.
   void countDroppedFrame(const std::string& text);
@@ -112,6 +117,8 @@ class PassEvaluation {
   /// True when the pair is settled one way or the other.
   bool evaluatePair(const MatchSet& matches, EvaluationUpdate* update);
   bool evaluateDetectedPair(const MatchSet& matches, EvaluationUpdate* update);
+  std::string whyUnusable(const MatchSet& matches) const;
+  void keepForTracks(const MatchSet& matches);
   void scoreFrame(Entry* entry, EvaluationUpdate* update);
   void take(MotionUpdate motion, EvaluationUpdate* update);
   bool wants(MetricFamily family) const { return options_.families.count(family) != 0; }

@@ -143,6 +143,8 @@ struct RepeatabilityReport {
   bool camera = false;  ///< camera_info was there; the same for depth images and poses
   bool depth = false;
   bool poses = false;
+  /// Distance in time of the nearest depth image that was too far away; none: there was no such.
+  std::optional<Stamp> nearest_depth_miss;
   std::vector<RepeatabilityRow> rows;
   OneToOneRepeatability one_to_one;  ///< of the first frame step, as the next
   BestLocalization best_localization;
@@ -176,7 +178,7 @@ struct TrackReport {
 struct Report {
   MetricFamilies families;
   Protocol protocol = Protocol::kEvolin;
-  bool complete = false;  ///< the input came to its end; false: a snapshot on the way
+  bool complete = false;  ///< the input came to its end and nothing is pending; false: a snapshot
   int pass = 1;           ///< a jump back in time starts the next
   std::string lines_source;
   std::string ground_truth_source;

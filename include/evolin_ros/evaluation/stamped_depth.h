@@ -29,6 +29,12 @@ class StampedDepth {
   /// the next add(). Images come in order of time; with `complete` none will come any more.
   Lookup find(Stamp stamp, bool complete, const DepthMap** depth);
 
+  /// Forgets images before `settled`, but for a few that late parts may want.
+  void trim(Stamp settled);
+
+  /// Whether an image of that stamp may have been here and left.
+  bool hasForgotten(Stamp stamp) const { return forgotten_ && stamp <= *forgotten_ + tolerance_; }
+
   bool empty() const { return !newest_; }
 
   /// Smallest distance in time, ns, at which a look-up without success found something: what a
@@ -36,10 +42,13 @@ class StampedDepth {
   std::optional<Stamp> nearestMiss() const { return nearest_miss_; }
 
  private:
+  void forgetOldest();
+
   Stamp tolerance_;
   std::size_t capacity_;
   std::map<Stamp, DepthMap> images_;
   std::optional<Stamp> newest_;
+  std::optional<Stamp> forgotten_;  ///< the newest that left
   std::optional<Stamp> nearest_miss_;
 };
 

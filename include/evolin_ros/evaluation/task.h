@@ -55,6 +55,7 @@ class TaskRunner {
 
  private:
   HeatmapRecord measure(const HeatmapTask& task) const;
+  PoseRecord estimate(const PoseTask& task) const;
 
   HeatmapOptions heatmap_;
   PoseMethod pose_method_;
