@@ -19,6 +19,7 @@ using test::expectEqual;
 using test::expectSeenIsTheSum;
 using test::handLines;
 using test::handTruth;
+using test::kSecond;
 using test::kStructural5;
 using test::matchSet;
 using test::Part;
