@@ -80,7 +80,7 @@ void averagePrecisionOfDenseFrame(benchmark::State& state) {
   const std::string digits = std::to_string(state.range(0));
   measure(denseFrame(std::string(4 - digits.size(), '0') + digits), &state);
 }
-// Two of the usual ones, one that needs finer units, and the one that needs the exact solver.
+// Two of the usual ones, one of the longest searches, and one proven after exchanges only.
 BENCHMARK(averagePrecisionOfDenseFrame)
     ->Arg(0)
     ->Arg(30)

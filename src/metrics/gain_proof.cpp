@@ -18,9 +18,13 @@
 //    w(p_n, g_n) + c(g_n) - c(g_1) + s_1 + ... + s_(n-1), so at most the largest w + c, less the
 //    smallest c, plus all s of the part.
 // Good prices and a good N are those of the cheapest matching of the predicted pixels, every s 0.
-// They are sought in weights rounded to whole units, and the rounding ends up in the s; parts that
-// fail by it are tried once more in finer units. The bound itself is computed from exact weights,
-// so nothing depends on how the prices were found.
+// They are sought in weights rounded to whole units, and the rounding ends up in the s. The bound
+// itself is computed from exact weights, so nothing depends on how the prices were found.
+//
+// Where it fails, the choice of predicted pixels may be at fault: of a level's pixels beyond what
+// can be matched, the matching may have left out those that would be cheap. N remains a matching of
+// most pairs at every level when such a pixel takes the place of a dear one of the same level, for
+// as long as all can be matched at once. The bound is tried again after a handful of exchanges.
 #include "gain_proof.h"
 
 #include <algorithm>
@@ -34,34 +38,40 @@ namespace evolin {
 
 namespace {
 
-/// Units a pixel: coarse ones tie more often, fine ones cost less of the bound.
-constexpr std::int32_t kCoarse = 16;
-constexpr std::int32_t kFine = 64;
 constexpr double kMostExpensive = 25500;  ///< pixels: no image has as long a diagonal
 constexpr double kPriceLimit = 4;         ///< in free costs; auctions overshoot
 constexpr double kMargin = 0.01;          ///< far above all rounding of doubles, and above the 1e-6
-constexpr std::size_t kUsualArcs = 32;    ///< memory to begin with, a bidder
+constexpr int kExchangeRounds = 8;
+constexpr std::size_t kExchanges = 8;   ///< a round
+constexpr double kLeastSaving = 0.125;  ///< in free costs, to try an exchange
+constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::size_t kUsualArcs = 32;  ///< memory to begin with, a bidder
 
 class GainProof {
  public:
-  GainProof(const PixelGrid& grid, const IndexedCells& ground_truth, const NestedMatching& matching,
+  GainProof(const PixelGrid& grid, const IndexedCells& ground_truth,
+            const std::vector<std::vector<Cell>>& added, const NestedMatching& matching,
             double free_cost)
-      : matching_(matching),
+      : grid_(grid),
+        ground_truth_(ground_truth),
+        added_(added),
+        matching_(matching),
         free_cost_(free_cost),
         sites_(ground_truth.size()),
         parts_(ground_truth.size()) {
-    listArcs(grid, ground_truth);
+    listArcs();
   }
 
-  std::vector<std::uint32_t> run(int reach, const Deadline& deadline) {
+  std::vector<std::uint32_t> run(const Deadline& deadline) {
     setAsideLightParts();
-    PriceSearch search(&lists_, sites_, reach,
+    PriceSearch search(&lists_, sites_, grid_.reach(),
                        std::clamp(free_cost_, 1.0, kMostExpensive) * kPriceLimit, deadline);
-    for (const std::int32_t units : {kCoarse, kFine}) {
-      if (!bidders_.empty()) {
-        search.run(bidders_, units);
-        setAsideProvenParts(search);
-      }
+    if (!bidders_.empty()) {
+      search.run(bidders_);
+      setAsideProvenParts(search);
+    }
+    for (int round = 0; round < kExchangeRounds && exchange(&search); ++round) {
+      setAsideProvenParts(search);
     }
     std::vector<std::uint32_t> unproven;
     for (const std::uint32_t bidder : bidders_) {
@@ -71,26 +81,125 @@ class GainProof {
   }
 
  private:
-  void listArcs(const PixelGrid& grid, const IndexedCells& ground_truth) {
-    const auto reach = static_cast<std::size_t>(grid.reach());
+  void listArcs() {
+    const auto reach = static_cast<std::size_t>(grid_.reach());
     lengths_.resize(reach * reach + 1);
     for (std::size_t squared = 0; squared < lengths_.size(); ++squared) {
       lengths_[squared] = std::sqrt(static_cast<double>(squared));
     }
-    lists_.arcs.reserve(matching_.predicted.size() * kUsualArcs);
-    lists_.first.reserve(matching_.predicted.size() + 1);
-    lists_.first.push_back(0);
-    for (std::size_t bidder = 0; bidder < matching_.predicted.size(); ++bidder) {
+    const std::size_t bidders = matching_.predicted.size();
+    lists_.arcs.reserve(bidders * kUsualArcs);
+    std::vector<std::size_t> ends(bidders);
+    for (std::size_t bidder = 0; bidder < bidders; ++bidder) {
       const std::uint32_t root = parts_.find(matching_.partners[bidder]);
-      ground_truth.set().forEachNear(
-          grid, matching_.predicted[bidder], [&](Cell cell, std::uint32_t squared) {
-            const std::uint32_t site = ground_truth.index(cell);
+      ground_truth_.set().forEachNear(
+          grid_, matching_.predicted[bidder], [&](Cell cell, std::uint32_t squared) {
+            const std::uint32_t site = ground_truth_.index(cell);
             lists_.arcs.push_back({site, 0, static_cast<std::uint16_t>(squared)});
             parts_.unite(root, site);
             return true;
           });
-      lists_.first.push_back(static_cast<std::uint32_t>(lists_.arcs.size()));
+      ends[bidder] = lists_.arcs.size();
     }
+    Arc* begin = lists_.arcs.data();
+    for (const std::size_t end : ends) {
+      lists_.ranges.push_back({begin, lists_.arcs.data() + end});
+      begin = lists_.arcs.data() + end;
+    }
+  }
+
+  /// A predicted pixel without partner that might take the place of a bidder.
+  struct Spare {
+    double cost;  ///< least w + c
+    Cell cell;
+  };
+
+  /// By level: the unmatched pixels of parts without proof, dearest first. None that would link
+  /// two parts.
+  std::vector<std::vector<Spare>> listSpares(const PriceSearch& search) {
+    CellSet matched(grid_);
+    for (const Cell cell : matching_.predicted) {
+      matched.insert(cell);
+    }
+    std::vector<bool> wanted(sites_);
+    for (const std::uint32_t bidder : bidders_) {
+      wanted[parts_.find(matching_.partners[bidder])] = true;
+    }
+    std::vector<std::vector<Spare>> spares(added_.size());
+    for (std::size_t level = 0; level < added_.size(); ++level) {
+      for (const Cell cell : added_[level]) {
+        if (matched.contains(cell)) {
+          continue;
+        }
+        std::uint32_t part = kNone;
+        bool fits = true;
+        double cost = std::numeric_limits<double>::infinity();
+        ground_truth_.set().forEachNear(grid_, cell, [&](Cell near, std::uint32_t squared) {
+          const std::uint32_t site = ground_truth_.index(near);
+          const std::uint32_t root = parts_.find(site);
+          fits = wanted[root] && (part == kNone || part == root);
+          part = root;
+          cost = std::min(cost, lengths_[squared] + search.price(site));
+          return fits;
+        });
+        if (fits) {
+          spares[level].push_back({cost, cell});
+        }
+      }
+      std::sort(spares[level].begin(), spares[level].end(),
+                [](const Spare& a, const Spare& b) { return a.cost > b.cost; });
+    }
+    return spares;
+  }
+
+  /// Puts cheap unmatched pixels in the place of dear bidders of the same level, and so makes N
+  /// another matching of most pairs at every level. False when there are none.
+  bool exchange(PriceSearch* search) {
+    if (bidders_.empty()) {
+      return false;
+    }
+    if (spares_.empty()) {
+      spares_ = listSpares(*search);
+    }
+    struct Dear {
+      double cost;
+      std::uint32_t bidder;
+    };
+    std::vector<Dear> dear;
+    for (const std::uint32_t bidder : bidders_) {
+      const Arc* chosen = search->chosen(bidder);
+      dear.push_back({chosen == nullptr ? std::numeric_limits<double>::infinity()
+                                        : lengths_[chosen->squared] + search->price(chosen->site),
+                      bidder});
+    }
+    std::sort(dear.begin(), dear.end(),
+              [](const Dear& a, const Dear& b) { return a.cost > b.cost; });
+    std::size_t count = 0;
+    for (const Dear& each : dear) {
+      const auto level = static_cast<std::size_t>(
+          std::upper_bound(matching_.sizes.begin(), matching_.sizes.end(), each.bidder) -
+          matching_.sizes.begin());
+      std::vector<Spare>& spares = spares_[level];
+      if (spares.empty() || spares.back().cost > each.cost - kLeastSaving * free_cost_) {
+        continue;
+      }
+      const Cell cell = spares.back().cell;
+      spares.pop_back();
+      if (search->replace(each.bidder, arcsOf(cell)) && ++count == kExchanges) {
+        break;
+      }
+    }
+    search->lowerPrices();
+    return count > 0;
+  }
+
+  std::vector<Arc> arcsOf(Cell predicted) const {
+    std::vector<Arc> arcs;
+    ground_truth_.set().forEachNear(grid_, predicted, [&](Cell cell, std::uint32_t squared) {
+      arcs.push_back({ground_truth_.index(cell), 0, static_cast<std::uint16_t>(squared)});
+      return true;
+    });
+    return arcs;
   }
 
   /// Bidders are the predicted pixels of parts that still lack a proof; claim 1 above.
@@ -149,6 +258,9 @@ class GainProof {
     bidders_.swap(remaining);
   }
 
+  const PixelGrid& grid_;
+  const IndexedCells& ground_truth_;
+  const std::vector<std::vector<Cell>>& added_;
   const NestedMatching& matching_;
   double free_cost_;
   std::size_t sites_;
@@ -156,14 +268,16 @@ class GainProof {
   ArcLists lists_;
   DisjointParts parts_;  ///< of sites
   std::vector<std::uint32_t> bidders_;
+  std::vector<std::vector<Spare>> spares_;  ///< by level
 };
 
 }  // namespace
 
 std::vector<std::uint32_t> findUnproven(const PixelGrid& grid, const IndexedCells& ground_truth,
+                                        const std::vector<std::vector<Cell>>& added,
                                         const NestedMatching& matching, double free_cost,
                                         const Deadline& deadline) {
-  return GainProof(grid, ground_truth, matching, free_cost).run(grid.reach(), deadline);
+  return GainProof(grid, ground_truth, added, matching, free_cost).run(deadline);
 }
 
 }  // namespace evolin

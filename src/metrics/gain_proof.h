@@ -15,6 +15,7 @@ namespace evolin {
 /// that lacks it. An empty answer proves that at every level the cheapest matching, with unmatched
 /// ground-truth pixels at `free_cost` each, has as many pairs as `matching`. Throws DeadlineError.
 std::vector<std::uint32_t> findUnproven(const PixelGrid& grid, const IndexedCells& ground_truth,
+                                        const std::vector<std::vector<Cell>>& added,
                                         const NestedMatching& matching, double free_cost,
                                         const Deadline& deadline);
 

@@ -48,6 +48,18 @@ class PixelGrid {
   std::vector<DiscCell> nearest_first_;
 };
 
+/// The number of ones. Without the processor's instruction, which a portable build may not use, the
+/// compiler would call a function.
+inline std::uint32_t countBits(std::uint64_t word) {
+  constexpr std::uint64_t kPairs = 0x5555555555555555;
+  constexpr std::uint64_t kFours = 0x3333333333333333;
+  constexpr std::uint64_t kBytes = 0x0F0F0F0F0F0F0F0F;
+  constexpr std::uint64_t kSum = 0x0101010101010101;
+  word -= (word >> 1U) & kPairs;
+  word = (word & kFours) + ((word >> 2U) & kFours);
+  return static_cast<std::uint32_t>((((word + (word >> 4U)) & kBytes) * kSum) >> 56U);
+}
+
 /// A set of cells, one bit each.
 class CellSet {
  public:
@@ -117,7 +129,7 @@ class IndexedCells {
     ranks_.reserve(set_.words_.size());
     for (const std::uint64_t word : set_.words_) {
       ranks_.push_back(static_cast<std::uint32_t>(size_));
-      size_ += static_cast<std::size_t>(__builtin_popcountll(word));
+      size_ += countBits(word);
     }
   }
 
@@ -128,8 +140,7 @@ class IndexedCells {
   std::uint32_t index(Cell cell) const {
     const std::uint64_t below = CellSet::bit(cell) - 1;
     const Cell word = cell / CellSet::kBits;
-    return ranks_[word] +
-           static_cast<std::uint32_t>(__builtin_popcountll(set_.words_[word] & below));
+    return ranks_[word] + countBits(set_.words_[word] & below);
   }
 
  private:

@@ -131,7 +131,7 @@ std::vector<std::size_t> countMatchedPixels(ImageSize size, const PixelMatchingR
   deadline.check();
   const NestedMatching matching = matchNested(grid, truth, levels, deadline);
   const std::vector<std::uint32_t> unproven =
-      findUnproven(grid, truth, matching, rule.free_cost, deadline);
+      findUnproven(grid, truth, levels, matching, rule.free_cost, deadline);
   return unproven.empty()
              ? matching.sizes
              : recount(grid, truth, levels, matching, unproven, rule.free_cost, deadline);

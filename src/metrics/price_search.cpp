@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace evolin {
 
@@ -26,52 +27,67 @@ constexpr std::size_t kBidsPerCheck = 256;   ///< of the deadline
 PriceSearch::PriceSearch(ArcLists* arcs, std::size_t sites, int reach, double most,
                          const Deadline& deadline)
     : lists_(*arcs),
-      reach_(static_cast<std::size_t>(reach)),
-      most_(most),
       deadline_(deadline),
-      queue_(1),
+      limit_(static_cast<Price>(most * kUnits)),
+      queue_(limit_),
       prices_(sites, 0),
       sites_(sites, {kFar, kNone, kNone}),
-      offers_(arcs->first.size() - 1),
-      chosen_(arcs->first.size() - 1, nullptr) {}
+      offers_(arcs->ranges.size()),
+      chosen_(arcs->ranges.size(), nullptr) {
+  const auto longest = static_cast<std::size_t>(reach);
+  for (std::size_t squared = 0; squared <= longest * longest; ++squared) {
+    weights_.push_back(
+        static_cast<std::uint16_t>(std::lround(std::sqrt(static_cast<double>(squared)) * kUnits)));
+  }
+}
 
-void PriceSearch::run(const std::vector<std::uint32_t>& bidders, std::int32_t units) {
+void PriceSearch::run(const std::vector<std::uint32_t>& bidders) {
   bidders_ = bidders;
-  const bool first_time = units_ == 0;
-  setUnits(units);
-  std::vector<std::uint32_t> waiting = first_time ? bidders_ : takeBackDearChoices();
+  for (const std::uint32_t bidder : bidders_) {
+    for (Arc* arc = lists_.begin(bidder); arc != lists_.end(bidder); ++arc) {
+      arc->units = weights_[arc->squared];
+    }
+  }
+  std::vector<std::uint32_t> waiting = bidders_;
   bidWithoutStep(&waiting);
-  if (first_time && waiting.size() > kFewBidders) {
+  if (waiting.size() > kFewBidders) {
     for (const std::int32_t step : kAuctionSteps) {
-      auction(step * units_, &waiting);
+      auction(step * kUnits, &waiting);
     }
     bidWithoutStep(&waiting);
   }
   for (const std::uint32_t bidder : waiting) {
     deadline_.check();
-    search(bidder);
+    search(bidder, limit_);
   }
   lowerPrices();
 }
 
-void PriceSearch::setUnits(std::int32_t units) {
-  const Price finer = units_ == 0 ? 1 : units / units_;
-  units_ = units;
-  limit_ = static_cast<Price>(most_ * units);
-  queue_.reset(limit_);
-  std::vector<std::uint16_t> rounded(reach_ * reach_ + 1);  // by squared weight
-  for (std::size_t squared = 0; squared < rounded.size(); ++squared) {
-    rounded[squared] =
-        static_cast<std::uint16_t>(std::lround(std::sqrt(static_cast<double>(squared)) * units));
+bool PriceSearch::replace(std::uint32_t bidder, std::vector<Arc> arcs) {
+  deadline_.check();
+  for (Arc& arc : arcs) {
+    arc.units = weights_[arc.squared];
   }
-  for (const std::uint32_t bidder : bidders_) {
-    for (Arc* arc = lists_.begin(bidder); arc != lists_.end(bidder); ++arc) {
-      arc->units = rounded[arc->squared];
-    }
+  const ArcLists::Range old_range = lists_.ranges[bidder];
+  const Arc* const old_choice = chosen_[bidder];
+  lists_.ranges[bidder] = {arcs.data(), arcs.data() + arcs.size()};
+  if (old_choice != nullptr) {
+    sites_[old_choice->site].owner = kNone;
+    chosen_[bidder] = nullptr;
   }
-  for (Price& price : prices_) {
-    price *= finer;
+  const Price old_offer = old_choice == nullptr ? limit_ : offers_[bidder];
+  search(bidder, std::min(limit_, old_offer - bestOffer(bidder).cost));
+  if (chosen_[bidder] != nullptr) {
+    lists_.others.push_back(std::move(arcs));
+    return true;
   }
+  lists_.ranges[bidder] = old_range;
+  chosen_[bidder] = old_choice;
+  if (old_choice != nullptr) {
+    sites_[old_choice->site].owner = bidder;
+    offers_[bidder] = old_offer;
+  }
+  return false;
 }
 
 /// The innermost loop: without branches, as which arc is the cheapest cannot be foreseen.
@@ -177,12 +193,13 @@ std::vector<std::uint32_t> PriceSearch::takeBackDearChoices() {
   return waiting;
 }
 
-/// Dijkstra's search from a bidder without site to the nearest site without owner.
-void PriceSearch::search(std::uint32_t start) {
+/// Dijkstra's search from a bidder without site to the nearest site without owner, nearer than
+/// `within`.
+void PriceSearch::search(std::uint32_t start, Price within) {
   touched_.clear();
   settled_.clear();
   offers_[start] = bestOffer(start).cost;
-  Price nearest = limit_;
+  Price nearest = within;
   std::uint32_t goal = kNone;
   std::uint32_t bidder = start;
   Price distance = 0;
@@ -286,10 +303,15 @@ void PriceSearch::lowerPrices() {
   }
   queue_.clear();
   for (std::size_t index = 0; index < sites_.size(); ++index) {
-    if (sites_[index].distance < limit_) {
+    if (sites_[index].distance != kFar) {
       prices_[index] -= sites_[index].distance;
     }
     sites_[index].distance = kFar;
+  }
+  for (const std::uint32_t bidder : bidders_) {
+    if (chosen_[bidder] != nullptr) {
+      offers_[bidder] = chosen_[bidder]->units + prices_[chosen_[bidder]->site];
+    }
   }
 }
 

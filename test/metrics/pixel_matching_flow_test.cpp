@@ -196,7 +196,7 @@ TEST(PixelMatchingByFlow, AgreesOnTheLivingRoom) {
   expectFlowCounts(layout, {0, 2});
 }
 
-/// With all twenty thresholds 8 needs the exact solver and 39 the proof in finer units.
+/// With all twenty thresholds 8 is proven after exchanges of predicted pixels, 39 only just.
 class DenseFrame : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(DenseFrame, Agrees) {
