@@ -56,7 +56,9 @@ class LineAssociatorNodelet : public SafeNodelet {
         image_transport_->advertise(topics::kMatchesImage, 1, on_listener, on_listener);
     matches_ = handle.advertise<evolin_ros::LineMatchArray>(topics::kMatches, kResultQueue,
                                                             on_listener, on_listener);
-    if (!options_.lazy) {
+    // Of listeners that the topic has already, for the sake of another nodelet in this manager,
+    // older releases of roscpp do not tell.
+    if (!options_.lazy || hasListener()) {
       subscribe();
     }
   }
@@ -84,13 +86,17 @@ class LineAssociatorNodelet : public SafeNodelet {
     joiner_ = std::make_unique<FrameLinesJoiner>(static_cast<std::size_t>(options_.queue_size));
   }
 
+  bool hasListener() const {
+    return matches_.getNumSubscribers() > 0 || matches_image_.getNumSubscribers() > 0;
+  }
+
   /// Called at every change of listeners, from any thread.
   void connect() {
     const std::lock_guard<std::mutex> lock(connect_mutex_);
     if (!options_.lazy) {
       return;
     }
-    const bool wanted = matches_.getNumSubscribers() > 0 || matches_image_.getNumSubscribers() > 0;
+    const bool wanted = hasListener();
     if (wanted && !image_) {
       subscribe();
     } else if (!wanted && image_) {

@@ -50,7 +50,9 @@ class LineDetectorNodelet : public SafeNodelet {
     lines_image_ = image_transport_->advertise(topics::kLinesImage, 1, on_listener, on_listener);
     lines_ = handle.advertise<evolin_ros::LineArray>(topics::kLines, kResultQueue, on_listener,
                                                      on_listener);
-    if (!options_.lazy) {
+    // Of listeners that the topic has already, for the sake of another nodelet in this manager,
+    // older releases of roscpp do not tell.
+    if (!options_.lazy || hasListener()) {
       subscribe();
     }
   }
@@ -91,13 +93,17 @@ class LineDetectorNodelet : public SafeNodelet {
     }
   }
 
+  bool hasListener() const {
+    return lines_.getNumSubscribers() > 0 || lines_image_.getNumSubscribers() > 0;
+  }
+
   /// Called at every change of listeners, from any thread.
   void connect() {
     const std::lock_guard<std::mutex> lock(connect_mutex_);
     if (!options_.lazy) {
       return;
     }
-    const bool wanted = lines_.getNumSubscribers() > 0 || lines_image_.getNumSubscribers() > 0;
+    const bool wanted = hasListener();
     if (wanted && !image_) {
       subscribe();
     } else if (!wanted && image_) {

@@ -108,7 +108,7 @@ TEST(OnlineBag, GivesTheReportOfAnEvaluationInProcess) {
   const Expected expected = evaluateInProcess(frames);
   // Figures that tell methods apart: neither nothing nor everything is right.
   ASSERT_GT(expected.detection.front().counts.true_positives, 0U);
-  ASSERT_LT(expected.detection.front().counts.precision(), 1);
+  ASSERT_LT(expected.detection.front().counts.fScore(), 1);
   ASSERT_EQ(expected.pairs.size(), 11U);
   expectWholeReport(report, expected);
   EXPECT_EQ(report.at("coverage").at("input_images"), 12);

@@ -74,6 +74,7 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
 
   const std::vector<LineSet> expected = detectLines(frames, availableDetector());
   const std::vector<evolin_ros::LineArray> messages = lines.messages();
+  std::size_t found = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     SCOPED_TRACE("frame " + frames[i].frame.name);
     EXPECT_EQ(ros_shell::fromRos(messages[i].header.stamp), frames[i].frame.stamp);
@@ -83,7 +84,7 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
     EXPECT_EQ(messages[i].source, availableDetector());
     EXPECT_EQ(messages[i].has_scores, expected[i].scored);
     EXPECT_GT(messages[i].processing_time, ros::Duration(0));
-    ASSERT_FALSE(messages[i].lines.empty());
+    found += messages[i].lines.size();
     ASSERT_EQ(messages[i].lines.size(), expected[i].lines.size());
     for (std::size_t row = 0; row < expected[i].lines.size(); ++row) {
       const LineSegment& line = expected[i].lines[row];
@@ -97,6 +98,7 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
       EXPECT_EQ(messages[i].lines[row].id, -1);
     }
   }
+  EXPECT_GE(found, frames.size());
 }
 
 TEST_F(OnlineDetector, DrawsOnlyForThoseWhoLook) {
