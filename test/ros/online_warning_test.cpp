@@ -30,6 +30,8 @@ TEST(OnlineWarning, NamesTheSilentTopicAndOnesOfItsType) {
   ground_truth.publish(ros_shell::toMessage(groundTruthOf(drawFrame({}, 0))));
   ros::Publisher elsewhere =
       ros::NodeHandle().advertise<evolin_ros::LineArray>(space + "/frontend/segments", 1);
+  const ros::Publisher silent =
+      ros::NodeHandle().advertise<evolin_ros::LineArray>(space + "/no_truth", 1);
   const auto is_there = [&] {
     ros::master::V_TopicInfo topics;
     return ros::master::getTopics(topics) &&
@@ -52,6 +54,13 @@ TEST(OnlineWarning, NamesTheSilentTopicAndOnesOfItsType) {
   ASSERT_TRUE(manager.load("second", "evolin_ros/Evaluator",
                            {{"lines", "nowhere"}, {"ground_truth/lines", "no_truth"}}));
   ASSERT_TRUE(log.waitFor(rosgraph_msgs::Log::WARN, {"no message on " + space + "/nowhere "}));
+  // A topic that is there but silent is not called missing, nor one of another type.
+  EXPECT_TRUE(log.waitFor(
+      rosgraph_msgs::Log::WARN,
+      {"no message on " + space + "/no_truth ", "it is advertised but no message has come yet"}));
+  EXPECT_TRUE(log.find(rosgraph_msgs::Log::WARN,
+                       {"no message on " + space + "/no_truth ", "frontend/segments"})
+                  .empty());
   EXPECT_EQ(log.find(rosgraph_msgs::Log::WARN, {"no message on " + space + "/lines "}).size(), 1U);
   // What was heard is not missed.
   EXPECT_EQ(log.find(rosgraph_msgs::Log::WARN, {"no message on " + space + "/ground_truth/lines "})
