@@ -17,9 +17,9 @@ struct DistortionModel {
 };
 
 const std::vector<DistortionModel>& distortionModels() {
-  static const std::vector<DistortionModel> models = {
+  static const std::vector<DistortionModel> kModels = {
       {"plumb_bob", {4, 5}}, {"rational_polynomial", {8, 12, 14}}, {"equidistant", {4}}};
-  return models;
+  return kModels;
 }
 
 void requireFinite(const std::string& source, const std::string& key, double value) {
@@ -37,11 +37,11 @@ void requireFocalLength(const std::string& source, const std::string& key, doubl
 }
 
 void requireKnownDistortion(const std::string& source, const Camera& camera) {
-  const std::vector<DistortionModel>& models = distortionModels();
-  const auto model = std::find_if(models.begin(), models.end(), [&](const DistortionModel& known) {
-    return known.name == camera.distortion_model;
-  });
-  if (model == models.end()) {
+  const std::vector<DistortionModel>& kModels = distortionModels();
+  const auto model = std::find_if(
+      kModels.begin(), kModels.end(),
+      [&](const DistortionModel& known) { return known.name == camera.distortion_model; });
+  if (model == kModels.end()) {
     throw Error(source + ": distortion_model is " + quote(camera.distortion_model) +
                 ", expected plumb_bob, rational_polynomial or equidistant");
   }
