@@ -37,11 +37,11 @@ void requireFocalLength(const std::string& source, const std::string& key, doubl
 }
 
 void requireKnownDistortion(const std::string& source, const Camera& camera) {
-  const std::vector<DistortionModel>& kModels = distortionModels();
-  const auto model = std::find_if(
-      kModels.begin(), kModels.end(),
-      [&](const DistortionModel& known) { return known.name == camera.distortion_model; });
-  if (model == kModels.end()) {
+  const std::vector<DistortionModel>& models = distortionModels();
+  const auto model = std::find_if(models.begin(), models.end(), [&](const DistortionModel& known) {
+    return known.name == camera.distortion_model;
+  });
+  if (model == models.end()) {
     throw Error(source + ": distortion_model is " + quote(camera.distortion_model) +
                 ", expected plumb_bob, rational_polynomial or equidistant");
   }
