@@ -5,18 +5,19 @@
 
 namespace evolin {
 
-PixelGrid::PixelGrid(ImageSize size, int reach) : reach_(reach) {
-  constexpr Cell kBits = 64;
+PixelGrid::PixelGrid(ImageSize size, int reach) : reach_(reach), stride_bits_(6) {
   const Cell width = static_cast<Cell>(size.width) + 2 * static_cast<Cell>(reach);
   const Cell height = static_cast<Cell>(size.height) + 2 * static_cast<Cell>(reach);
-  stride_ = (width + kBits - 1) / kBits * kBits;
-  cells_ = static_cast<std::size_t>(stride_) * height;
+  while (width >> stride_bits_ != 0) {
+    ++stride_bits_;
+  }
+  cells_ = static_cast<std::size_t>(height) << stride_bits_;
   for (int dy = -reach; dy <= reach; ++dy) {
     int half = 0;
     while ((half + 1) * (half + 1) + dy * dy <= reach * reach) {
       ++half;
     }
-    const Cell row_offset = static_cast<Cell>(dy) * stride_;  // wraps above the centre
+    const Cell row_offset = static_cast<Cell>(dy) << stride_bits_;  // wraps above the centre
     rows_.push_back({row_offset - static_cast<Cell>(half), 2 * static_cast<Cell>(half) + 1,
                      static_cast<std::uint32_t>(dy * dy)});
     for (int dx = -half; dx <= half; ++dx) {

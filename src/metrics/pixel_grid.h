@@ -10,8 +10,8 @@
 
 namespace evolin {
 
-/// A pixel's number. Rows are padded to whole words of bits and to `reach` cells on every side, so
-/// that a disc around a pixel never leaves the grid.
+/// A pixel's number. Rows are padded by `reach` cells on every side, so that a disc around a pixel
+/// never leaves the grid, and to a power of two, whole words of bits.
 using Cell = std::uint32_t;
 
 /// The geometry that all sets of one image share.
@@ -35,14 +35,21 @@ class PixelGrid {
   std::size_t cells() const { return cells_; }
   int reach() const { return reach_; }
   Cell cell(const Pixel& pixel) const {
-    return static_cast<Cell>(pixel.y + reach_) * stride_ + static_cast<Cell>(pixel.x + reach_);
+    return (static_cast<Cell>(pixel.y + reach_) << stride_bits_) +
+           static_cast<Cell>(pixel.x + reach_);
+  }
+  std::uint32_t squaredDistance(Cell a, Cell b) const {
+    const Cell column = (Cell{1} << stride_bits_) - 1;
+    const auto dx = static_cast<std::int32_t>((a & column) - (b & column));
+    const auto dy = static_cast<std::int32_t>((a >> stride_bits_) - (b >> stride_bits_));
+    return static_cast<std::uint32_t>(dx * dx + dy * dy);
   }
   const std::vector<DiscRow>& discRows() const { return rows_; }
   const std::vector<DiscCell>& nearestFirst() const { return nearest_first_; }
 
  private:
   int reach_;
-  Cell stride_;
+  unsigned stride_bits_;
   std::size_t cells_;
   std::vector<DiscRow> rows_;
   std::vector<DiscCell> nearest_first_;
