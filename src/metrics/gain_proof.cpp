@@ -59,7 +59,6 @@ class GainProof {
         free_cost_(free_cost),
         sites_(ground_truth.size()),
         bidder_cells_(matching.predicted),
-        site_cells_(ground_truth.size()),
         parts_(ground_truth.size()) {
     listArcs();
   }
@@ -100,7 +99,6 @@ class GainProof {
                                       [&](Cell cell, std::uint32_t squared) {
                                         const std::uint32_t site = ground_truth_.index(cell);
                                         lists_.arcs.emplace_back(site, units_[squared]);
-                                        site_cells_[site] = cell;
                                         parts_.unite(root, site);
                                         return true;
                                       });
@@ -115,7 +113,7 @@ class GainProof {
 
   /// Exact, in pixels.
   double length(std::uint32_t bidder, std::uint32_t site) const {
-    return lengths_[grid_.squaredDistance(bidder_cells_[bidder], site_cells_[site])];
+    return lengths_[grid_.squaredDistance(bidder_cells_[bidder], ground_truth_.cells()[site])];
   }
 
   /// A predicted pixel without partner that might take the place of a bidder.
@@ -277,7 +275,6 @@ class GainProof {
   std::vector<double> lengths_;       ///< by squared length
   std::vector<std::uint32_t> units_;  ///< by squared length
   std::vector<Cell> bidder_cells_;
-  std::vector<Cell> site_cells_;  ///< of sites with arcs
   ArcLists lists_;
   DisjointParts parts_;  ///< of sites
   std::vector<std::uint32_t> bidders_;

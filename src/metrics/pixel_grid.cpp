@@ -29,4 +29,35 @@ PixelGrid::PixelGrid(ImageSize size, int reach) : reach_(reach), stride_bits_(6)
                    [](const DiscCell& a, const DiscCell& b) { return a.squared < b.squared; });
 }
 
+IndexedCells::IndexedCells(const PixelGrid& grid, const Pixels& pixels) : set_(grid) {
+  for (const Pixel& pixel : pixels) {
+    set_.insert(grid.cell(pixel));
+  }
+  cells_.reserve(pixels.size());
+  number();
+}
+
+IndexedCells::IndexedCells(const PixelGrid& grid, const std::vector<std::vector<Cell>>& lists)
+    : set_(grid) {
+  std::size_t count = 0;
+  for (const std::vector<Cell>& cells : lists) {
+    set_.insertAll(cells);
+    count += cells.size();
+  }
+  cells_.reserve(count);
+  number();
+}
+
+void IndexedCells::number() {
+  ranks_.reserve(set_.words_.size());
+  Cell first = 0;
+  for (std::uint64_t word : set_.words_) {
+    ranks_.push_back(static_cast<std::uint32_t>(cells_.size()));
+    for (; word != 0; word &= word - 1) {
+      cells_.push_back(first + static_cast<Cell>(__builtin_ctzll(word)));
+    }
+    first += CellSet::kBits;
+  }
+}
+
 }  // namespace evolin

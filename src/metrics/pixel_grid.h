@@ -73,6 +73,11 @@ class CellSet {
   explicit CellSet(const PixelGrid& grid) : words_(grid.cells() / kBits + 1) {}
 
   void insert(Cell cell) { words_[cell / kBits] |= bit(cell); }
+  void insertAll(const std::vector<Cell>& cells) {
+    for (const Cell cell : cells) {
+      insert(cell);
+    }
+  }
   void erase(Cell cell) { words_[cell / kBits] &= ~bit(cell); }
   bool contains(Cell cell) const { return (words_[cell / kBits] & bit(cell)) != 0; }
 
@@ -129,19 +134,13 @@ class CellSet {
 /// A fixed set of cells, numbered from 0 by rows.
 class IndexedCells {
  public:
-  IndexedCells(const PixelGrid& grid, const Pixels& pixels) : set_(grid) {
-    for (const Pixel& pixel : pixels) {
-      set_.insert(grid.cell(pixel));
-    }
-    ranks_.reserve(set_.words_.size());
-    for (const std::uint64_t word : set_.words_) {
-      ranks_.push_back(static_cast<std::uint32_t>(size_));
-      size_ += countBits(word);
-    }
-  }
+  IndexedCells(const PixelGrid& grid, const Pixels& pixels);
+  /// All of several lists together.
+  IndexedCells(const PixelGrid& grid, const std::vector<std::vector<Cell>>& lists);
 
   const CellSet& set() const { return set_; }
-  std::size_t size() const { return size_; }
+  const std::vector<Cell>& cells() const { return cells_; }
+  std::size_t size() const { return cells_.size(); }
 
   /// The number of a cell of the set.
   std::uint32_t index(Cell cell) const {
@@ -151,9 +150,11 @@ class IndexedCells {
   }
 
  private:
+  void number();
+
   CellSet set_;
+  std::vector<Cell> cells_;           ///< by number
   std::vector<std::uint32_t> ranks_;  ///< cells of the set before each word
-  std::size_t size_ = 0;
 };
 
 }  // namespace evolin
