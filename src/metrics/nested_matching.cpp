@@ -58,10 +58,10 @@ class NestedMatcher {
     for (const Cell cell : *waiting) {
       (free_.anyNear(grid_, cell) ? left : beside).push_back(cell);
     }
-    for (const PixelGrid::DiscCell& place : grid_.nearestFirst()) {
+    for (const PixelGrid::Offset offset : grid_.nearestFirst()) {
       std::size_t kept = 0;
       for (const Cell cell : left) {
-        const Cell partner = cell + place.offset;
+        const Cell partner = grid_.moved(cell, offset);
         if (free_.contains(partner)) {
           free_.erase(partner);
           join(cell);

@@ -10,49 +10,58 @@
 
 namespace evolin {
 
-/// A pixel's number. Rows are padded by `reach` cells on every side, so that a disc around a pixel
-/// never leaves the grid, and to a power of two, whole words of bits.
+/// A pixel's number. The image lies in columns of 64 pixels, one word of bits a row, so that the
+/// rows of a disc follow each other in memory and its pixels have numbers close together. There is
+/// a margin of the reach on every side: a disc never leaves the grid.
 using Cell = std::uint32_t;
 
 /// The geometry that all sets of one image share.
 class PixelGrid {
  public:
-  /// A row of the disc: `length` cells from `first` cells after the centre on (wraps for rows
-  /// above).
-  struct DiscRow {
-    Cell first;
-    Cell length;
-    std::uint32_t dy_squared;
-  };
-  /// A cell of the disc, relative to its centre (wraps), and its squared distance.
-  struct DiscCell {
-    Cell offset;
-    std::uint32_t squared;
+  static constexpr Cell kBits = 64;  ///< of a word
+
+  /// A cell of the disc, relative to its centre.
+  struct Offset {
+    std::int32_t dx;
+    std::int32_t dy;
   };
 
   PixelGrid(ImageSize size, int reach);
 
-  std::size_t cells() const { return cells_; }
+  std::size_t words() const { return words_; }
   int reach() const { return reach_; }
   Cell cell(const Pixel& pixel) const {
-    return (static_cast<Cell>(pixel.y + reach_) << stride_bits_) +
-           static_cast<Cell>(pixel.x + reach_);
+    return cellAt(static_cast<Cell>(pixel.x + reach_), static_cast<Cell>(pixel.y + reach_));
+  }
+  /// `offset` is one of the disc.
+  Cell moved(Cell cell, Offset offset) const {
+    return cellAt(x(cell) + static_cast<Cell>(offset.dx), y(cell) + static_cast<Cell>(offset.dy));
   }
   std::uint32_t squaredDistance(Cell a, Cell b) const {
-    const Cell column = (Cell{1} << stride_bits_) - 1;
-    const auto dx = static_cast<std::int32_t>((a & column) - (b & column));
-    const auto dy = static_cast<std::int32_t>((a >> stride_bits_) - (b >> stride_bits_));
+    const auto dx = static_cast<std::int32_t>(x(a) - x(b));
+    const auto dy = static_cast<std::int32_t>(y(a) - y(b));
     return static_cast<std::uint32_t>(dx * dx + dy * dy);
   }
-  const std::vector<DiscRow>& discRows() const { return rows_; }
-  const std::vector<DiscCell>& nearestFirst() const { return nearest_first_; }
+  /// The whole disc, nearest cells first.
+  const std::vector<Offset>& nearestFirst() const { return nearest_first_; }
 
  private:
+  friend class CellSet;
+
+  // With the margin; a column has 1 << column_bits_ words.
+  Cell cellAt(Cell x, Cell y) const {
+    return ((((x / kBits) << column_bits_) + y) * kBits) + x % kBits;
+  }
+  Cell x(Cell cell) const { return (cell / kBits >> column_bits_) * kBits + cell % kBits; }
+  Cell y(Cell cell) const { return cell / kBits & ((Cell{1} << column_bits_) - 1); }
+
   int reach_;
-  unsigned stride_bits_;
-  std::size_t cells_;
-  std::vector<DiscRow> rows_;
-  std::vector<DiscCell> nearest_first_;
+  unsigned column_bits_ = 0;
+  std::size_t words_ = 0;
+  /// Bits of the disc in a square around it, column by column of 64 from the left, each from its
+  /// upper row down.
+  std::vector<std::uint64_t> masks_;
+  std::vector<Offset> nearest_first_;
 };
 
 /// The number of ones. Without the processor's instruction, which a portable build may not use, the
@@ -70,7 +79,7 @@ inline std::uint32_t countBits(std::uint64_t word) {
 /// A set of cells, one bit each.
 class CellSet {
  public:
-  explicit CellSet(const PixelGrid& grid) : words_(grid.cells() / kBits + 1) {}
+  explicit CellSet(const PixelGrid& grid) : words_(grid.words()) {}
 
   void insert(Cell cell) { words_[cell / kBits] |= bit(cell); }
   void insertAll(const std::vector<Cell>& cells) {
@@ -84,46 +93,60 @@ class CellSet {
   /// Whether any cell within the reach of `centre` is in the set.
   bool anyNear(const PixelGrid& grid, Cell centre) const {
     std::uint64_t found = 0;
-    for (const PixelGrid::DiscRow& row : grid.discRows()) {
-      for (Cell done = 0; done < row.length; done += kBits) {
-        found |= bits(centre + row.first + done, row.length - done);
-      }
-    }
+    forEachRow(grid, centre, [&found](std::uint64_t row, Cell, std::int32_t, std::int32_t) {
+      found |= row;
+      return true;
+    });
     return found != 0;
   }
 
-  /// Calls visit(cell, squared distance) for the set's cells within the reach of `centre`; stops
-  /// when it returns false. `visit` may erase the cell that it was called with.
+  /// Calls visit(cell, squared distance) for the set's cells within the reach of `centre`, by
+  /// rising numbers but where the disc lies in two columns; stops when it returns false. `visit`
+  /// may erase the cell that it was called with.
   template <typename Visit>
   void forEachNear(const PixelGrid& grid, Cell centre, const Visit& visit) const {
-    for (const PixelGrid::DiscRow& row : grid.discRows()) {
-      const Cell first = centre + row.first;
-      for (Cell done = 0; done < row.length; done += kBits) {
-        std::uint64_t found = bits(first + done, row.length - done);
-        for (; found != 0; found &= found - 1) {
-          const Cell place = done + static_cast<Cell>(__builtin_ctzll(found));
-          const std::int32_t dx =
-              static_cast<std::int32_t>(place) - static_cast<std::int32_t>(row.length / 2);
-          if (!visit(first + place, row.dy_squared + static_cast<std::uint32_t>(dx * dx))) {
-            return;
-          }
+    const unsigned next_column = grid.column_bits_;
+    forEachRow(grid, centre, [&](std::uint64_t row, Cell begin, std::int32_t dx, std::int32_t dy) {
+      for (; row != 0; row &= row - 1) {
+        const auto bit = static_cast<Cell>(__builtin_ctzll(row));
+        const Cell place = begin % kBits + bit;
+        const Cell cell =
+            (begin - begin % kBits) + ((place / kBits * kBits) << next_column) + place % kBits;
+        const std::int32_t cell_dx = dx + static_cast<std::int32_t>(bit);
+        if (!visit(cell, static_cast<std::uint32_t>(cell_dx * cell_dx + dy * dy))) {
+          return false;
         }
       }
-    }
+      return true;
+    });
   }
 
  private:
-  static constexpr Cell kBits = 64;
+  static constexpr Cell kBits = PixelGrid::kBits;
 
   static std::uint64_t bit(Cell cell) { return std::uint64_t{1} << (cell % kBits); }
 
-  /// Bit i: whether cell begin + i is in the set; of the first `length` cells, at most 64.
-  std::uint64_t bits(Cell begin, Cell length) const {
-    const Cell word = begin / kBits;
+  /// Calls visit(bits, cell of the first bit, its dx, dy) for up to 64 cells of a row of the disc
+  /// at a time, cells outside the disc or the set being 0; stops when it returns false.
+  template <typename Visit>
+  void forEachRow(const PixelGrid& grid, Cell centre, const Visit& visit) const {
+    const std::int32_t reach = grid.reach_;
+    const std::uint64_t* mask = grid.masks_.data();
+    Cell begin = grid.moved(centre, {-reach, -reach});
     const Cell shift = begin % kBits;
-    // Two shifts, as one by 64 is undefined.
-    const std::uint64_t window = (words_[word] >> shift) | (words_[word + 1] << 1U << (63 - shift));
-    return length >= kBits ? window : window & ((std::uint64_t{1} << length) - 1);
+    for (std::int32_t dx = -reach; dx <= reach; dx += static_cast<std::int32_t>(kBits)) {
+      const std::uint64_t* left = words_.data() + begin / kBits;
+      const std::uint64_t* right = left + (std::size_t{1} << grid.column_bits_);
+      Cell first = begin;
+      for (std::int32_t dy = -reach; dy <= reach; ++dy, ++left, ++right, ++mask, first += kBits) {
+        // Two shifts, as one by 64 is undefined.
+        const std::uint64_t row = ((*left >> shift) | (*right << 1U << (63 - shift))) & *mask;
+        if (!visit(row, first, dx, dy)) {
+          return;
+        }
+      }
+      begin += kBits << grid.column_bits_;
+    }
   }
 
   friend class IndexedCells;
@@ -131,7 +154,7 @@ class CellSet {
   std::vector<std::uint64_t> words_;
 };
 
-/// A fixed set of cells, numbered from 0 by rows.
+/// A fixed set of cells, numbered from 0 as they follow each other.
 class IndexedCells {
  public:
   IndexedCells(const PixelGrid& grid, const Pixels& pixels);

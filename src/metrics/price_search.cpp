@@ -13,7 +13,7 @@ namespace {
 constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
 
 /// Pixels by which a bid exceeds the second best offer, auction by auction.
-constexpr std::array<std::int32_t, 2> kAuctionSteps = {16, 4};
+constexpr std::array<std::int32_t, 3> kAuctionSteps = {16, 4, 1};
 constexpr std::size_t kFewBidders = 400;     ///< searches for so few cost less than an auction
 constexpr std::size_t kBidsPerBidder = 100;  ///< after which an auction is broken off
 constexpr std::size_t kBidsPerCheck = 256;   ///< of the deadline

@@ -30,7 +30,7 @@ class Arc {
   std::uint64_t word_;
 };
 
-/// The arcs of all bidders, by rising sites.
+/// The arcs of all bidders.
 struct ArcLists {
   struct Range {
     const Arc* first;
@@ -93,7 +93,7 @@ class PriceSearch {
   using Price = std::int32_t;  ///< in units
   using Word = std::uint64_t;  ///< a price in the place of an arc's weight
 
-  static constexpr Price kUnits = 64;  ///< a pixel
+  static constexpr Price kUnits = 32;  ///< a pixel
   static constexpr Word kNoArc = ~Word{0};
 
   /// A site, and what the current search knows of it.
