@@ -94,12 +94,12 @@ class GainProof {
     lists_.arcs.reserve(bidders * kUsualArcs);
     std::vector<std::size_t> ends(bidders);
     for (std::size_t bidder = 0; bidder < bidders; ++bidder) {
-      const std::uint32_t root = parts_.find(matching_.partners[bidder]);
+      std::uint32_t root = parts_.find(matching_.partners[bidder]);
       ground_truth_.set().forEachNear(grid_, matching_.predicted[bidder],
                                       [&](Cell cell, std::uint32_t squared) {
                                         const std::uint32_t site = ground_truth_.index(cell);
                                         lists_.arcs.emplace_back(site, units_[squared]);
-                                        parts_.unite(root, site);
+                                        root = parts_.unite(root, site);
                                         return true;
                                       });
       ends[bidder] = lists_.arcs.size();

@@ -18,6 +18,8 @@ namespace evolin {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
+/// After so many places of the disc it is cheaper to ask who has nothing free left in it.
+constexpr std::size_t kOffsetsPerCheck = 16;
 
 class NestedMatcher {
  public:
@@ -54,14 +56,18 @@ class NestedMatcher {
   /// Takes away from `waiting` what finds a free partner within reach, shortest pairs first.
   void matchNearestFirst(std::vector<Cell>* waiting) {
     std::vector<Cell> beside;  // nothing free within reach
-    std::vector<Cell> left;
-    for (const Cell cell : *waiting) {
-      (free_.anyNear(grid_, cell) ? left : beside).push_back(cell);
-    }
-    for (const PixelGrid::Offset offset : grid_.nearestFirst()) {
+    std::vector<Cell> left = *waiting;
+    const std::vector<PixelGrid::Offset>& offsets = grid_.nearestFirst();
+    for (std::size_t place = 0; place < offsets.size() && !left.empty(); ++place) {
+      if (place % kOffsetsPerCheck == 0) {
+        const auto gone = std::stable_partition(
+            left.begin(), left.end(), [this](Cell cell) { return free_.anyNear(grid_, cell); });
+        beside.insert(beside.end(), gone, left.end());
+        left.erase(gone, left.end());
+      }
       std::size_t kept = 0;
       for (const Cell cell : left) {
-        const Cell partner = grid_.moved(cell, offset);
+        const Cell partner = grid_.moved(cell, offsets[place]);
         if (free_.contains(partner)) {
           free_.erase(partner);
           join(cell);
@@ -71,12 +77,9 @@ class NestedMatcher {
         }
       }
       left.resize(kept);
-      if (kept == 0) {
-        break;
-      }
     }
-    left.insert(left.end(), beside.begin(), beside.end());
-    waiting->swap(left);
+    beside.insert(beside.end(), left.begin(), left.end());
+    waiting->swap(beside);
   }
 
   void join(Cell cell) { result_.predicted.push_back(cell); }

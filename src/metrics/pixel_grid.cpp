@@ -5,20 +5,22 @@
 
 namespace evolin {
 
-PixelGrid::PixelGrid(ImageSize size, int reach) : reach_(reach) {
-  const std::size_t side = 2 * static_cast<std::size_t>(reach) + 1;
-  while (static_cast<std::size_t>(size.height) + side - 1 > std::size_t{1} << column_bits_) {
+PixelGrid::PixelGrid(ImageSize size, int reach)
+    : reach_(reach), side_(2 * static_cast<Cell>(reach) + 1) {
+  while (static_cast<std::size_t>(size.height) + side_ - 1 > std::size_t{1} << column_bits_) {
     ++column_bits_;
   }
   // Two more than needed: a disc's last words, and the ones beside them.
-  const std::size_t columns = (static_cast<std::size_t>(size.width) + side) / kBits + 3;
+  const std::size_t columns = (static_cast<std::size_t>(size.width) + side_) / kBits + 3;
   words_ = columns << column_bits_;
   const auto inside = [reach](int dx, int dy) { return dx * dx + dy * dy <= reach * reach; };
   for (int left = -reach; left <= reach; left += static_cast<int>(kBits)) {
     for (int dy = -reach; dy <= reach; ++dy) {
       std::uint64_t mask = 0;
       for (int bit = 0; bit < static_cast<int>(kBits); ++bit) {
-        mask |= std::uint64_t{inside(left + bit, dy)} << static_cast<unsigned>(bit);
+        const int dx = left + bit;
+        mask |= std::uint64_t{inside(dx, dy)} << static_cast<unsigned>(bit);
+        squared_.push_back(static_cast<std::uint32_t>(dx * dx + dy * dy));
       }
       masks_.push_back(mask);
     }

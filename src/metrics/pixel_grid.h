@@ -55,12 +55,19 @@ class PixelGrid {
   Cell x(Cell cell) const { return (cell / kBits >> column_bits_) * kBits + cell % kBits; }
   Cell y(Cell cell) const { return cell / kBits & ((Cell{1} << column_bits_) - 1); }
 
+  /// Of the square around a disc.
+  Cell corner(Cell centre) const {
+    return cellAt(x(centre) - static_cast<Cell>(reach_), y(centre) - static_cast<Cell>(reach_));
+  }
+
   int reach_;
+  Cell side_;  ///< of the square around a disc
   unsigned column_bits_ = 0;
   std::size_t words_ = 0;
   /// Bits of the disc in a square around it, column by column of 64 from the left, each from its
   /// upper row down.
   std::vector<std::uint64_t> masks_;
+  std::vector<std::uint32_t> squared_;  ///< distance from the centre of each bit of masks_
   std::vector<Offset> nearest_first_;
 };
 
@@ -92,33 +99,51 @@ class CellSet {
 
   /// Whether any cell within the reach of `centre` is in the set.
   bool anyNear(const PixelGrid& grid, Cell centre) const {
+    const Cell side = grid.side_;
+    const std::uint64_t* mask = grid.masks_.data();
+    Cell begin = grid.corner(centre);
+    const Cell shift = begin % kBits;
     std::uint64_t found = 0;
-    forEachRow(grid, centre, [&found](std::uint64_t row, Cell, std::int32_t, std::int32_t) {
-      found |= row;
-      return true;
-    });
+    for (Cell column = 0; column < side; column += kBits) {
+      const std::uint64_t* const left = words_.data() + begin / kBits;
+      const std::uint64_t* const right = left + (std::size_t{1} << grid.column_bits_);
+      for (Cell row = 0; row < side; ++row) {
+        found |= window(left[row], right[row], shift) & mask[row];
+      }
+      mask += side;
+      begin += kBits << grid.column_bits_;
+    }
     return found != 0;
   }
 
-  /// Calls visit(cell, squared distance) for the set's cells within the reach of `centre`, by
-  /// rising numbers but where the disc lies in two columns; stops when it returns false. `visit`
-  /// may erase the cell that it was called with.
+  /// Calls visit(cell, squared distance) for the set's cells within the reach of `centre`; stops
+  /// when it returns false. `visit` may erase the cell that it was called with.
   template <typename Visit>
   void forEachNear(const PixelGrid& grid, Cell centre, const Visit& visit) const {
-    const unsigned next_column = grid.column_bits_;
-    forEachRow(grid, centre, [&](std::uint64_t row, Cell begin, std::int32_t dx, std::int32_t dy) {
-      for (; row != 0; row &= row - 1) {
-        const auto bit = static_cast<Cell>(__builtin_ctzll(row));
-        const Cell place = begin % kBits + bit;
-        const Cell cell =
-            (begin - begin % kBits) + ((place / kBits * kBits) << next_column) + place % kBits;
-        const std::int32_t cell_dx = dx + static_cast<std::int32_t>(bit);
-        if (!visit(cell, static_cast<std::uint32_t>(cell_dx * cell_dx + dy * dy))) {
-          return false;
+    const Cell side = grid.side_;
+    const std::uint64_t* mask = grid.masks_.data();
+    const std::uint32_t* squared = grid.squared_.data();
+    Cell begin = grid.corner(centre);
+    const Cell shift = begin % kBits;
+    for (Cell column = 0; column < side; column += kBits) {
+      const std::uint64_t* const left = words_.data() + begin / kBits;
+      const std::uint64_t* const right = left + (std::size_t{1} << grid.column_bits_);
+      for (Cell row = 0; row < side; ++row) {
+        std::uint64_t found = window(left[row], right[row], shift) & mask[row];
+        for (; found != 0; found &= found - 1) {
+          const auto bit = static_cast<Cell>(__builtin_ctzll(found));
+          const Cell place = shift + bit;  // from the left word's first cell on
+          const Cell cell = begin - shift + row * kBits +
+                            ((place / kBits * kBits) << grid.column_bits_) + place % kBits;
+          if (!visit(cell, squared[row * kBits + bit])) {
+            return;
+          }
         }
       }
-      return true;
-    });
+      mask += side;
+      squared += side * kBits;
+      begin += kBits << grid.column_bits_;
+    }
   }
 
  private:
@@ -126,27 +151,9 @@ class CellSet {
 
   static std::uint64_t bit(Cell cell) { return std::uint64_t{1} << (cell % kBits); }
 
-  /// Calls visit(bits, cell of the first bit, its dx, dy) for up to 64 cells of a row of the disc
-  /// at a time, cells outside the disc or the set being 0; stops when it returns false.
-  template <typename Visit>
-  void forEachRow(const PixelGrid& grid, Cell centre, const Visit& visit) const {
-    const std::int32_t reach = grid.reach_;
-    const std::uint64_t* mask = grid.masks_.data();
-    Cell begin = grid.moved(centre, {-reach, -reach});
-    const Cell shift = begin % kBits;
-    for (std::int32_t dx = -reach; dx <= reach; dx += static_cast<std::int32_t>(kBits)) {
-      const std::uint64_t* left = words_.data() + begin / kBits;
-      const std::uint64_t* right = left + (std::size_t{1} << grid.column_bits_);
-      Cell first = begin;
-      for (std::int32_t dy = -reach; dy <= reach; ++dy, ++left, ++right, ++mask, first += kBits) {
-        // Two shifts, as one by 64 is undefined.
-        const std::uint64_t row = ((*left >> shift) | (*right << 1U << (63 - shift))) & *mask;
-        if (!visit(row, first, dx, dy)) {
-          return;
-        }
-      }
-      begin += kBits << grid.column_bits_;
-    }
+  /// 64 bits from bit `shift` of `left` on; `right` follows. Two shifts, as one by 64 is undefined.
+  static std::uint64_t window(std::uint64_t left, std::uint64_t right, Cell shift) {
+    return (left >> shift) | (right << 1U << (63 - shift));
   }
 
   friend class IndexedCells;
