@@ -66,6 +66,14 @@ MotionUpdate MotionEvaluation::addImage(Stamp stamp) {
   return update;
 }
 
+void MotionEvaluation::removeImage(Stamp stamp) {
+  const auto node = nodes_.find(stamp);
+  if (node != nodes_.end() && node->second.detected.state == State::kAbsent &&
+      node->second.truth.state == State::kAbsent) {
+    nodes_.erase(node);
+  }
+}
+
 MotionUpdate MotionEvaluation::addLines(const LineSet& lines) {
   MotionUpdate update;
   lines_source_ = lines.source;

@@ -1,6 +1,7 @@
 // What a pass has to tell, put together.
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "evolin_ros/evaluation/pass_evaluation.h"
 #include "evolin_ros/metrics/association.h"
@@ -26,6 +27,9 @@ FrameState PassEvaluation::stateByWhatIsMissing(bool has_lines) {
 
 CoverageCounts PassEvaluation::coverage() const {
   CoverageCounts counts = coverage_;
+  const std::size_t others = imagesOfOthers().size();
+  counts.seen -= others;
+  counts.waiting -= others;
   counts.no_depth = motion_.counts().no_depth;
   counts.no_pose = motion_.counts().no_pose;
   return counts;
@@ -38,7 +42,9 @@ bool PassEvaluation::waiting() const {
   std::optional<Stamp> newest;
   for (const auto& [stamp, entry] : entries_) {
     const bool has_lines = entry.record.lines.has_value();
-    if (!has_lines && entry.record.state == FrameState::kWaiting) {
+    const bool alone = !has_lines && !entry.record.ground_truth;
+    if (!has_lines && entry.record.state == FrameState::kWaiting &&
+        !(alone && standsForAnother(stamp))) {
       return true;
     }
     const bool matched_lines = matches_lines_source_ == ground_truth_source_
@@ -84,7 +90,11 @@ Report PassEvaluation::report(bool complete) const {
   report.detector_timing = summarizeTimes(detector_times_);
   report.associator_timing = summarizeTimes(associator_times_);
   report.frames.reserve(entries_.size());
+  const std::vector<Stamp> of_others = imagesOfOthers();
   for (const auto& [stamp, entry] : entries_) {
+    if (std::binary_search(of_others.begin(), of_others.end(), stamp)) {
+      continue;
+    }
     FrameRecord record = entry.record;
     if (complete && record.state == FrameState::kWaiting) {
       record.state = stateByWhatIsMissing(record.lines.has_value());
@@ -98,6 +108,9 @@ Report PassEvaluation::report(bool complete) const {
   }
   sortByStamp(&report.pair_records);
   report.notes = notes_;
+  if (std::string text = imageOffsetNote(); complete && !text.empty()) {
+    report.notes.push_back(std::move(text));
+  }
   if (notes_left_out_ > 0) {
     report.notes.push_back("and " + std::to_string(notes_left_out_) + " more of these");
   }
@@ -137,6 +150,9 @@ void PassEvaluation::fillMotion(bool complete, Report* report) const {
     // What still waits will wait for ever; the pass itself stays open for what may come all the
     // same.
     MotionEvaluation finished = motion_;
+    for (const Stamp image : imagesOfOthers()) {
+      finished.removeImage(image);
+    }
     MotionUpdate rest = finished.finish();
     std::vector<RepeatabilityRecord>& records = report->repeatability.records;
     records.insert(records.end(), rest.repeatability.begin(), rest.repeatability.end());

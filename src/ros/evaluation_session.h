@@ -35,7 +35,8 @@ class EvaluationSession {
   struct Told {
     std::vector<std::string> notes;
     std::vector<std::string> warnings;
-    std::optional<int> finished_pass;  ///< time jumped back: this pass is over and written
+    std::optional<int> finished_pass;   ///< time jumped back: this pass is over and written
+    std::optional<Stamp> image_offset;  ///< as EvaluationUpdate's
   };
 
   /// `handle` advertises the topics, `private_handle` names the parameters that reports carry;
@@ -100,7 +101,8 @@ class EvaluationSession {
       }
       metrics_.publish(update, last_header_);
     }
-    Told told{std::move(update.notes), std::move(update.warnings), std::nullopt};
+    Told told{std::move(update.notes), std::move(update.warnings), std::nullopt,
+              update.image_offset};
     if (released) {
       writeQuietly(std::move(*released));
     }

@@ -196,6 +196,13 @@ class EvaluatorNodelet : public SafeNodelet {
         NODELET_WARN("%s: %s", topic.c_str(), note.c_str());
       }
     }
+    if (told.image_offset) {
+      NODELET_WARN(
+          "%s: its stamps are not those of lines and ground truth, the nearest is %.6f s away, "
+          "expected the stamp of its image; it tells of no images then, its intrinsics are taken "
+          "all the same",
+          getNodeHandle().resolveName(topics::kCameraInfo).c_str(), toSeconds(*told.image_offset));
+    }
     if (told.finished_pass) {
       if (motion_inputs_) {
         motion_inputs_->startPass();

@@ -117,6 +117,28 @@ TEST(MotionEvaluation, CountsStepsOverFramesWithoutLines) {
   }
 }
 
+TEST(PassEvaluation, FrameStepsDoNotCountImagesWithStampsOfTheirOwn) {
+  for (const Stamp offset : {kMillisecond, 45 * kMillisecond}) {
+    PassOptions options;
+    options.motion = shortSteps();
+    options.motion.repeatabilities.frame_steps = {2};
+    options.families = {MetricFamily::kRepeatability};
+    PassEvaluation pass(options);
+    pass.setCamera(camera());
+    for (int frame = 0; frame < 20; ++frame) {
+      pass.addImage(stampOf(frame) + offset);
+      pass.addDepth(stampOf(frame), wall());
+      pass.addPose(poseAt(frame));
+      pass.addLines(detected(stampOf(frame), linesAt(frame)));
+    }
+    const Report report = pass.report(true);
+    ASSERT_EQ(report.repeatability.records.size(), 18U) << offset;
+    for (const RepeatabilityRecord& record : report.repeatability.records) {
+      EXPECT_EQ(record.stamp - record.first_stamp, 2 * kPeriod);
+    }
+  }
+}
+
 TEST(MotionEvaluation, WaitsForDepthAndPosesOfAnyOrder) {
   MotionEvaluation motion(shortSteps());
   Collected collected;

@@ -77,6 +77,9 @@ class MotionEvaluation {
   /// Of all frames; the first one counts, a note says when another differs.
   MotionUpdate setCamera(const Camera& camera);
   MotionUpdate addImage(Stamp stamp);
+  /// What addImage() told of was no image. One with lines or ground truth stays, and so does the
+  /// place of one that frame steps have counted already.
+  void removeImage(Stamp stamp);
   MotionUpdate addLines(const LineSet& lines);
   MotionUpdate addGroundTruth(const LineSet& ground_truth);
   MotionUpdate addDepth(Stamp stamp, DepthMap depth);
