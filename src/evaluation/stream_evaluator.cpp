@@ -220,11 +220,12 @@ std::optional<Report> StreamEvaluator::takeReleasedReport() {
   return std::exchange(released_, std::nullopt);
 }
 
-bool StreamEvaluator::waiting() const {
-  return current().waiting() || std::any_of(passes_.begin(), passes_.end(), [](const auto& pass) {
-           return pass.second.hasPendingTasks();
-         });
+bool StreamEvaluator::hasPendingTasks() const {
+  return std::any_of(passes_.begin(), passes_.end(),
+                     [](const auto& pass) { return pass.second.hasPendingTasks(); });
 }
+
+bool StreamEvaluator::waiting() const { return current().waiting() || hasPendingTasks(); }
 
 void StreamEvaluator::reset() {
   const std::uint64_t generation = generation_ + 1;

@@ -74,7 +74,8 @@ class EvaluationSession {
   void saveWhenIdle();
 
   /// Returns once every frame that was heard of has its lines and matches and every task is done,
-  /// or nothing has come for so long that nothing will; false when `stopped` says so before.
+  /// or nothing has come for so long that nothing will; false when `stopped` says so before. Tasks
+  /// that are left then are broken off and counted as skipped.
   /// `first_match_due`: whether matches may come although none has.
   bool drain(const std::function<bool()>& stopped, const std::function<bool()>& first_match_due);
 
@@ -116,6 +117,9 @@ class EvaluationSession {
   void noteInput(bool of_frame);
   void handOut(EvaluationUpdate* update);
   void onResult(const EvaluationResult& result);
+  bool waitForTheRest(const std::function<bool()>& stopped,
+                      const std::function<bool()>& first_match_due);
+  void giveUpTasks();
   void addProvenance(Report* report) const;
   std::filesystem::path write(Report report);
   void writeQuietly(Report report);

@@ -79,6 +79,9 @@ class PassEvaluation {
   void countDroppedFrame(const std::string& text);
   void countSkippedPair(const std::string& text);
 
+  /// Goes to the report.
+  void addNote(const std::string& text) { keepNote(text); }
+
   /// The figures so far. With `complete` nothing is waited for any more, and waiting frames are
   /// counted by what they lack.
   Report report(bool complete) const;

@@ -55,6 +55,10 @@ class StreamEvaluator {
   /// Of the newest pass, cheap at any number of frames.
   CoverageCounts coverage() const { return current().coverage(); }
 
+  /// For the report of the newest pass.
+  void addNote(const std::string& text) { passes_.at(newest_).addNote(text); }
+
+  bool hasPendingTasks() const;
   bool waiting() const;
   int pass() const { return newest_; }
   const PassEvaluation& current() const { return passes_.at(newest_); }
