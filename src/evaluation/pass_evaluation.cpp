@@ -189,7 +189,9 @@ EvaluationUpdate PassEvaluation::addResult(const EvaluationResult& result) {
     --poses_pending_;
     evaluator_.addPose(*pose);
     pose_records_.push_back(*pose);
-    update.poses.push_back(*pose);
+    pose_records_.back().frame_step = stepBetween(pose->first_stamp, pose->stamp);
+    pose_steps_.insert(pose_records_.back().frame_step);
+    update.poses.push_back(pose_records_.back());
     return update;
   }
   const auto& heatmap = std::get<HeatmapRecord>(result.record);
@@ -279,6 +281,16 @@ void PassEvaluation::hold(Stamp stamp) {
   oldest.ground_truth.reset();
   oldest.released = true;
   held_.erase(held_.begin());
+}
+
+void PassEvaluation::countLeftOutDepth(const std::string& text) {
+  ++coverage_.depth_left_out;
+  keepNote(text);
+}
+
+void PassEvaluation::countLeftOutPose(const std::string& text) {
+  ++coverage_.poses_left_out;
+  keepNote(text);
 }
 
 void PassEvaluation::countDroppedFrame(const std::string& text) {

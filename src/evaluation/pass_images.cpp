@@ -72,6 +72,17 @@ bool PassEvaluation::standsForAnother(Stamp image) const {
   return exact_images_ == 0 || nearestFrameTo(image).has_value();
 }
 
+/// By what has been heard of so far.
+int PassEvaluation::stepBetween(Stamp first, Stamp second) const {
+  int step = 0;
+  const auto end = entries_.upper_bound(second);
+  for (auto entry = entries_.upper_bound(first); entry != end; ++entry) {
+    const bool has_frame = entry->second.record.lines || entry->second.record.ground_truth;
+    step += has_frame || !standsForAnother(entry->first) ? 1 : 0;
+  }
+  return step;
+}
+
 std::vector<Stamp> PassEvaluation::imagesOfOthers() const {
   std::vector<Stamp> images;
   if (frames_heard_ == 0) {

@@ -32,6 +32,7 @@ CoverageCounts PassEvaluation::coverage() const {
   counts.waiting -= others;
   counts.no_depth = motion_.counts().no_depth;
   counts.no_pose = motion_.counts().no_pose;
+  counts.bad_lines = motion_.counts().bad_lines;
   return counts;
 }
 
@@ -138,7 +139,6 @@ void PassEvaluation::fillHeatmap(Report* report) const {
 void PassEvaluation::fillMotion(bool complete, Report* report) const {
   PoseReport& pose = report->pose;
   pose.method = options_.motion.pose_method;
-  pose.frame_step = options_.frame_step;
   pose.auc_thresholds = options_.auc_thresholds;
   pose.errors = evaluator_.pose();
   pose.pending = poses_pending_;
@@ -165,6 +165,21 @@ void PassEvaluation::fillMotion(bool complete, Report* report) const {
   }
   sortByStamp(&report->repeatability.records);
   sortByStamp(&pose.records);
+  // Only now is it known which images lie between.
+  std::map<Stamp, int> places;
+  int place = 0;
+  const std::vector<Stamp> of_others = imagesOfOthers();
+  for (const auto& [stamp, entry] : entries_) {
+    if (!std::binary_search(of_others.begin(), of_others.end(), stamp)) {
+      places.emplace_hint(places.end(), stamp, place++);
+    }
+  }
+  std::set<int> steps;
+  for (PoseRecord& record : pose.records) {
+    record.frame_step = places.at(record.stamp) - places.at(record.first_stamp);
+    steps.insert(record.frame_step);
+  }
+  pose.frame_step = steps.size() == 1 ? *steps.begin() : 0;
 }
 
 void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* report) const {
@@ -184,8 +199,11 @@ void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* r
   repeatability.best_count = options_.motion.best_localization.count;
   report->coverage.no_depth = motion.counts().no_depth;
   report->coverage.no_pose = motion.counts().no_pose;
+  report->coverage.bad_lines = motion.counts().bad_lines;
   report->coverage.heatmap_skipped = coverage_.heatmap_skipped;
   report->coverage.pose_skipped = coverage_.pose_skipped;
+  report->coverage.depth_left_out = coverage_.depth_left_out;
+  report->coverage.poses_left_out = coverage_.poses_left_out;
 }
 
 TrackReport PassEvaluation::tracks() const {

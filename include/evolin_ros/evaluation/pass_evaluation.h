@@ -79,6 +79,10 @@ class PassEvaluation {
   void countDroppedFrame(const std::string& text);
   void countSkippedPair(const std::string& text);
 
+  /// A depth image or a camera pose cannot belong to any frame.
+  void countLeftOutDepth(const std::string& text);
+  void countLeftOutPose(const std::string& text);
+
   /// Goes to the report.
   void addNote(const std::string& text) { keepNote(text); }
 
@@ -94,6 +98,9 @@ class PassEvaluation {
   bool waiting() const;
 
   const MotionEvaluation& motion() const { return motion_; }
+
+  /// Images from the first to the second frame of every pose estimate so far; 0: it differs.
+  int poseStep() const { return pose_steps_.size() == 1 ? *pose_steps_.begin() : 0; }
 
   /// Follows all lines from the beginning: time grows with what was received.
   TrackReport tracks() const;
@@ -121,6 +128,7 @@ class PassEvaluation {
   void setState(Entry* entry, FrameState state);
   void noteFrame(Stamp stamp, const Entry& entry);
   bool standsForAnother(Stamp image) const;
+  int stepBetween(Stamp first, Stamp second) const;
   std::vector<Stamp> imagesOfOthers() const;
   std::optional<Stamp> nearestFrameTo(Stamp image) const;
   void settleImages(EvaluationUpdate* update);
@@ -166,6 +174,7 @@ class PassEvaluation {
   MotionEvaluation motion_;
   std::vector<RepeatabilityRecord> repeatability_records_;
   std::vector<PoseRecord> pose_records_;
+  std::set<int> pose_steps_;
   std::size_t heatmaps_pending_ = 0;
   std::size_t poses_pending_ = 0;
   PairCounts pair_counts_;
