@@ -66,6 +66,14 @@ MotionUpdate MotionEvaluation::addImage(Stamp stamp) {
   return update;
 }
 
+void MotionEvaluation::removeImage(Stamp stamp) {
+  const auto node = nodes_.find(stamp);
+  if (node != nodes_.end() && node->second.detected.state == State::kAbsent &&
+      node->second.truth.state == State::kAbsent) {
+    nodes_.erase(node);
+  }
+}
+
 MotionUpdate MotionEvaluation::addLines(const LineSet& lines) {
   MotionUpdate update;
   lines_source_ = lines.source;
@@ -73,9 +81,7 @@ MotionUpdate MotionEvaluation::addLines(const LineSet& lines) {
     ++counts_.late;
   }
   if (Node* node = nodeAt(lines.stamp, &update)) {
-    node->detected.state = State::kWaiting;
-    node->detected.lines = lines.lines;
-    node->detected.size = {lines.width, lines.height};
+    takeLines(lines, true, &node->detected, &update);
     unresolved_.insert(lines.stamp);
     resolve(lines.stamp, false, &update);
     advance(false, &update);
@@ -88,15 +94,30 @@ MotionUpdate MotionEvaluation::addGroundTruth(const LineSet& ground_truth) {
   ground_truth_source_ = ground_truth.source;
   if (Node* node = nodeAt(ground_truth.stamp, &update)) {
     if (options_.pose) {
-      node->truth.state = State::kWaiting;
-      node->truth.lines = ground_truth.lines;
-      node->truth.size = {ground_truth.width, ground_truth.height};
+      takeLines(ground_truth, false, &node->truth, &update);
       unresolved_.insert(ground_truth.stamp);
       resolve(ground_truth.stamp, false, &update);
     }
     advance(false, &update);
   }
   return update;
+}
+
+void MotionEvaluation::takeLines(const LineSet& lines, bool detected, Lifting* lifting,
+                                 MotionUpdate* update) {
+  const auto bad = std::find_if(lines.lines.begin(), lines.lines.end(),
+                                [](const LineSegment& line) { return !line.isFinite(); });
+  lifting->state = bad == lines.lines.end() ? State::kWaiting : State::kBad;
+  if (lifting->state == State::kBad) {
+    update->notes.push_back((detected ? "lines of frame " : "ground truth of frame ") +
+                            formatStamp(lines.stamp) + ", row " +
+                            std::to_string(bad - lines.lines.begin()) +
+                            ": coordinates are not finite; the frame is left out of repeatability "
+                            "and relative pose");
+    return;
+  }
+  lifting->lines = lines.lines;
+  lifting->size = {lines.width, lines.height};
 }
 
 MotionUpdate MotionEvaluation::addDepth(Stamp stamp, DepthMap depth) {
@@ -174,6 +195,7 @@ void MotionEvaluation::limitNodes(MotionUpdate* update) {
     settle(stamp, &oldest->second, update);
   }
   unresolved_.erase(stamp);
+  gone_ = std::max(stamp, gone_.value_or(stamp));
   nodes_.erase(oldest);
 }
 
@@ -275,7 +297,9 @@ void MotionEvaluation::settle(Stamp stamp, Node* node, MotionUpdate* update) {
   if (node->detected.state == State::kAbsent) {
     return;
   }
-  if (node->pose_state != State::kReady) {
+  if (node->detected.state == State::kBad) {
+    ++counts_.bad_lines;
+  } else if (node->pose_state != State::kReady) {
     ++counts_.no_pose;
   } else if (node->detected.state != State::kReady) {
     ++counts_.no_depth;
@@ -343,30 +367,49 @@ bool MotionEvaluation::tryPair(const PairKey& key, const MatchSet& matches, bool
     return false;
   }
   const bool truth = !ground_truth_source_.empty() && matches.lines_source == ground_truth_source_;
-  bool no_depth = false;
-  bool no_pose = false;
   for (const auto& node : {first, second}) {
-    const bool gone = node == nodes_.end();
-    const State lines = gone    ? State::kAbsent
-                        : truth ? node->second.truth.state
-                                : node->second.detected.state;
-    const State pose = gone ? State::kNever : node->second.pose_state;
-    const bool undecided =
-        lines == State::kAbsent || lines == State::kWaiting || pose == State::kWaiting;
-    if (undecided && !complete) {
+    if (complete || node == nodes_.end()) {
+      continue;
+    }
+    const State lines = truth ? node->second.truth.state : node->second.detected.state;
+    if (lines == State::kAbsent || lines == State::kWaiting ||
+        node->second.pose_state == State::kWaiting) {
       return false;
     }
-    no_depth = no_depth || lines != State::kReady;
-    no_pose = no_pose || pose != State::kReady;
   }
-  if (no_pose) {
-    ++counts_.pairs_no_pose;
-  } else if (no_depth) {
-    ++counts_.pairs_no_depth;
+  if (std::size_t* const reason = reasonAgainst(key, truth)) {
+    ++*reason;
   } else {
     makeTask(matches, first->second, second->second, truth, update);
   }
   return true;
+}
+
+/// The count of what a pair lacks; null when it lacks nothing.
+std::size_t* MotionEvaluation::reasonAgainst(const PairKey& key, bool truth) {
+  bool left_buffer = false;
+  bool no_lines = false;
+  bool bad_lines = false;
+  bool no_pose = false;
+  bool no_depth = false;
+  for (const Stamp stamp : {key.first, key.second}) {
+    const auto node = nodes_.find(stamp);
+    if (node == nodes_.end()) {
+      (gone_ && stamp <= *gone_ ? left_buffer : no_lines) = true;
+      continue;
+    }
+    const State lines = truth ? node->second.truth.state : node->second.detected.state;
+    no_lines = no_lines || lines == State::kAbsent;
+    bad_lines = bad_lines || lines == State::kBad;
+    no_pose = no_pose || node->second.pose_state != State::kReady;
+    no_depth = no_depth || lines != State::kReady;
+  }
+  return left_buffer ? &counts_.pairs_left_buffer
+         : no_lines  ? &counts_.pairs_no_lines
+         : bad_lines ? &counts_.pairs_bad_lines
+         : no_pose   ? &counts_.pairs_no_pose
+         : no_depth  ? &counts_.pairs_no_depth
+                     : nullptr;
 }
 
 void MotionEvaluation::makeTask(const MatchSet& matches, const Node& first, const Node& second,

@@ -1,6 +1,7 @@
 // What a pass has to tell, put together.
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "evolin_ros/evaluation/pass_evaluation.h"
 #include "evolin_ros/metrics/association.h"
@@ -26,8 +27,12 @@ FrameState PassEvaluation::stateByWhatIsMissing(bool has_lines) {
 
 CoverageCounts PassEvaluation::coverage() const {
   CoverageCounts counts = coverage_;
+  const std::size_t others = imagesOfOthers().size();
+  counts.seen -= others;
+  counts.waiting -= others;
   counts.no_depth = motion_.counts().no_depth;
   counts.no_pose = motion_.counts().no_pose;
+  counts.bad_lines = motion_.counts().bad_lines;
   return counts;
 }
 
@@ -38,7 +43,9 @@ bool PassEvaluation::waiting() const {
   std::optional<Stamp> newest;
   for (const auto& [stamp, entry] : entries_) {
     const bool has_lines = entry.record.lines.has_value();
-    if (!has_lines && entry.record.state == FrameState::kWaiting) {
+    const bool alone = !has_lines && !entry.record.ground_truth;
+    if (!has_lines && entry.record.state == FrameState::kWaiting &&
+        !(alone && standsForAnother(stamp))) {
       return true;
     }
     const bool matched_lines = matches_lines_source_ == ground_truth_source_
@@ -84,7 +91,11 @@ Report PassEvaluation::report(bool complete) const {
   report.detector_timing = summarizeTimes(detector_times_);
   report.associator_timing = summarizeTimes(associator_times_);
   report.frames.reserve(entries_.size());
+  const std::vector<Stamp> of_others = imagesOfOthers();
   for (const auto& [stamp, entry] : entries_) {
+    if (std::binary_search(of_others.begin(), of_others.end(), stamp)) {
+      continue;
+    }
     FrameRecord record = entry.record;
     if (complete && record.state == FrameState::kWaiting) {
       record.state = stateByWhatIsMissing(record.lines.has_value());
@@ -98,6 +109,9 @@ Report PassEvaluation::report(bool complete) const {
   }
   sortByStamp(&report.pair_records);
   report.notes = notes_;
+  if (std::string text = imageOffsetNote(); complete && !text.empty()) {
+    report.notes.push_back(std::move(text));
+  }
   if (notes_left_out_ > 0) {
     report.notes.push_back("and " + std::to_string(notes_left_out_) + " more of these");
   }
@@ -125,7 +139,6 @@ void PassEvaluation::fillHeatmap(Report* report) const {
 void PassEvaluation::fillMotion(bool complete, Report* report) const {
   PoseReport& pose = report->pose;
   pose.method = options_.motion.pose_method;
-  pose.frame_step = options_.frame_step;
   pose.auc_thresholds = options_.auc_thresholds;
   pose.errors = evaluator_.pose();
   pose.pending = poses_pending_;
@@ -137,6 +150,9 @@ void PassEvaluation::fillMotion(bool complete, Report* report) const {
     // What still waits will wait for ever; the pass itself stays open for what may come all the
     // same.
     MotionEvaluation finished = motion_;
+    for (const Stamp image : imagesOfOthers()) {
+      finished.removeImage(image);
+    }
     MotionUpdate rest = finished.finish();
     std::vector<RepeatabilityRecord>& records = report->repeatability.records;
     records.insert(records.end(), rest.repeatability.begin(), rest.repeatability.end());
@@ -149,6 +165,21 @@ void PassEvaluation::fillMotion(bool complete, Report* report) const {
   }
   sortByStamp(&report->repeatability.records);
   sortByStamp(&pose.records);
+  // Only now is it known which images lie between.
+  std::map<Stamp, int> places;
+  int place = 0;
+  const std::vector<Stamp> of_others = imagesOfOthers();
+  for (const auto& [stamp, entry] : entries_) {
+    if (!std::binary_search(of_others.begin(), of_others.end(), stamp)) {
+      places.emplace_hint(places.end(), stamp, place++);
+    }
+  }
+  std::set<int> steps;
+  for (PoseRecord& record : pose.records) {
+    record.frame_step = places.at(record.stamp) - places.at(record.first_stamp);
+    steps.insert(record.frame_step);
+  }
+  pose.frame_step = steps.size() == 1 ? *steps.begin() : 0;
 }
 
 void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* report) const {
@@ -168,8 +199,11 @@ void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* r
   repeatability.best_count = options_.motion.best_localization.count;
   report->coverage.no_depth = motion.counts().no_depth;
   report->coverage.no_pose = motion.counts().no_pose;
+  report->coverage.bad_lines = motion.counts().bad_lines;
   report->coverage.heatmap_skipped = coverage_.heatmap_skipped;
   report->coverage.pose_skipped = coverage_.pose_skipped;
+  report->coverage.depth_left_out = coverage_.depth_left_out;
+  report->coverage.poses_left_out = coverage_.poses_left_out;
 }
 
 TrackReport PassEvaluation::tracks() const {

@@ -134,6 +134,7 @@ Json repeatabilityJson(const Report& report) {
   return {{"frames", repeatability.counts.frames},
           {"no_depth", repeatability.counts.no_depth},
           {"no_pose", repeatability.counts.no_pose},
+          {"bad_lines", repeatability.counts.bad_lines},
           {"late", repeatability.counts.late},
           {"entries", std::move(entries)},
           {"one_to_one", std::move(one)},
@@ -169,7 +170,7 @@ Json poseJson(const Report& report) {
   const PoseErrorMetrics& errors = pose.errors;
   const MotionCounts& counts = report.repeatability.counts;
   Json object = {{"strategy", toString(pose.method.strategy)},
-                 {"step", pose.frame_step},
+                 {"step", pose.frame_step > 0 ? Json(pose.frame_step) : Json(nullptr)},
                  {"pairs", errors.pairs()},
                  {"failed", errors.failed()},
                  {"ill_conditioned", errors.illConditioned()},
@@ -195,6 +196,9 @@ Json poseJson(const Report& report) {
   }
   object["not_evaluated"] = {{"no_depth", counts.pairs_no_depth},
                              {"no_pose", counts.pairs_no_pose},
+                             {"no_lines", counts.pairs_no_lines},
+                             {"bad_lines", counts.pairs_bad_lines},
+                             {"left_buffer", counts.pairs_left_buffer},
                              {"skipped", counts.pairs_skipped + report.coverage.pose_skipped}};
   return object;
 }

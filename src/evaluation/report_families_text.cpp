@@ -118,8 +118,10 @@ std::string detectedAssociationSection(const Report& report) {
 
 std::string poseSection(const Report& report) {
   const PoseErrorMetrics& errors = report.pose.errors;
-  std::string text = "\n## Relative pose (strategy `" + toString(report.pose.method.strategy) +
-                     "`, step " + std::to_string(report.pose.frame_step) + ")\n\n";
+  std::string text =
+      "\n## Relative pose (strategy `" + toString(report.pose.method.strategy) + "`" +
+      (report.pose.frame_step > 0 ? ", step " + std::to_string(report.pose.frame_step) : "") +
+      ")\n\n";
   const std::string reason = whyNoPose(report);
   if (!reason.empty()) {
     return text + reason + "\n";
@@ -193,12 +195,12 @@ std::string repeatabilityToCsv(const Report& report) {
 
 std::string posesToCsv(const Report& report) {
   std::string text =
-      "first_stamp,stamp,matches,with_depth,inliers,rotation_error_deg,translation_angle_deg,"
+      "first_stamp,stamp,step,matches,with_depth,inliers,rotation_error_deg,translation_angle_deg,"
       "translation_error_m,moved_m,ill_conditioned,reason\n";
   for (const PoseRecord& record : report.pose.records) {
     text += formatStamp(record.first_stamp) + "," + formatStamp(record.stamp) + "," +
-            std::to_string(record.matched) + "," + std::to_string(record.with_depth) + "," +
-            std::to_string(record.inliers) + ",";
+            std::to_string(record.frame_step) + "," + std::to_string(record.matched) + "," +
+            std::to_string(record.with_depth) + "," + std::to_string(record.inliers) + ",";
     const std::optional<PoseErrors>& errors = record.pair.errors;
     text += errors
                 ? formatDouble(errors->rotation) + "," + formatDouble(errors->translation_angle) +

@@ -36,8 +36,11 @@ Json coverageJson(const Report& report) {
                  {"skipped", coverage.skipped},
                  {"no_depth", coverage.no_depth},
                  {"no_pose", coverage.no_pose},
+                 {"bad_lines", coverage.bad_lines},
                  {"heatmap_skipped", coverage.heatmap_skipped},
-                 {"pose_skipped", coverage.pose_skipped}};
+                 {"pose_skipped", coverage.pose_skipped},
+                 {"depth_left_out", coverage.depth_left_out},
+                 {"poses_left_out", coverage.poses_left_out}};
   if (report.input_images) {
     object["input_images"] = *report.input_images;
   } else {

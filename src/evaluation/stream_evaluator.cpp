@@ -108,21 +108,32 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& 
 
 void StreamEvaluator::drop(Input input, Fault fault, const std::string& what,
                            EvaluationUpdate* update) {
-  // Images, depth and poses are no result: what they lack shows where it is missed.
-  if (input == kImage || input == kDepth || input == kPose) {
+  // Images, depth and poses are no result: what they lack shows where it is missed. Without stamps,
+  // though, a whole stream of depth or poses would vanish.
+  if (input == kImage || ((input == kDepth || input == kPose) && fault != kNoStamp)) {
     return;
   }
   constexpr const char* kNames[kInputs] = {"images",  "lines", "ground truth",
                                            "matches", "depth", "poses"};
-  const std::string text = what + " is left out; it and others of its kind count as " +
-                           (input == kMatches ? "skipped pairs" : "dropped");
+  constexpr const char* kCounts[kInputs] = {
+      "", "dropped", "dropped", "skipped pairs", "depth_left_out", "poses_left_out"};
+  const std::string text =
+      what + " is left out; it and others of its kind count as " + kCounts[input];
   const bool is_new = noted_.insert({input, fault}).second;
   const std::string note = is_new ? std::string(kNames[input]) + ": " + text : "";
   PassEvaluation& newest = passes_.at(newest_);
-  if (input == kMatches) {
-    newest.countSkippedPair(note);
-  } else {
-    newest.countDroppedFrame(note);
+  switch (input) {
+    case kMatches:
+      newest.countSkippedPair(note);
+      break;
+    case kDepth:
+      newest.countLeftOutDepth(note);
+      break;
+    case kPose:
+      newest.countLeftOutPose(note);
+      break;
+    default:
+      newest.countDroppedFrame(note);
   }
   if (told_.insert({input, fault}).second) {
     update->warnings.push_back(text);
@@ -220,11 +231,12 @@ std::optional<Report> StreamEvaluator::takeReleasedReport() {
   return std::exchange(released_, std::nullopt);
 }
 
-bool StreamEvaluator::waiting() const {
-  return current().waiting() || std::any_of(passes_.begin(), passes_.end(), [](const auto& pass) {
-           return pass.second.hasPendingTasks();
-         });
+bool StreamEvaluator::hasPendingTasks() const {
+  return std::any_of(passes_.begin(), passes_.end(),
+                     [](const auto& pass) { return pass.second.hasPendingTasks(); });
 }
+
+bool StreamEvaluator::waiting() const { return current().waiting() || hasPendingTasks(); }
 
 void StreamEvaluator::reset() {
   const std::uint64_t generation = generation_ + 1;

@@ -6,8 +6,10 @@
 
 namespace evolin {
 
-TaskRunner::TaskRunner(const TaskOptions& options)
-    : heatmap_(options.heatmap), pose_method_(options.pose_method) {}
+TaskRunner::TaskRunner(const TaskOptions& options, const std::atomic<bool>* stop)
+    : heatmap_(options.heatmap), pose_method_(options.pose_method) {
+  heatmap_.stop = stop;
+}
 
 EvaluationResult TaskRunner::run(const EvaluationTask& task) const {
   EvaluationResult result{task.generation, task.pass, HeatmapRecord()};
@@ -43,11 +45,17 @@ HeatmapRecord TaskRunner::measure(const HeatmapTask& task) const {
   try {
     const HeatmapOutcome outcome =
         frame.addFrame(0, formatStamp(task.stamp), task.size, task.lines, task.ground_truth);
-    if (outcome == HeatmapOutcome::kAdded) {
-      record.counts = frame.classifications();
-    } else {
-      record.reason = "frame " + formatStamp(task.stamp) + " takes longer than the " +
-                      formatDouble(heatmap_.frame_budget) + " s that a frame may take";
+    switch (outcome) {
+      case HeatmapOutcome::kAdded:
+        record.counts = frame.classifications();
+        break;
+      case HeatmapOutcome::kOverBudget:
+        record.reason = "frame " + formatStamp(task.stamp) + " takes longer than the " +
+                        formatDouble(heatmap_.frame_budget) + " s that a frame may take";
+        break;
+      case HeatmapOutcome::kStopped:
+        record.reason = "frame " + formatStamp(task.stamp) + " was still being measured at the end";
+        break;
     }
   } catch (const std::exception& error) {
     record.reason = error.what();

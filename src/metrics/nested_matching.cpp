@@ -59,6 +59,7 @@ class NestedMatcher {
     std::vector<Cell> left = *waiting;
     const std::vector<PixelGrid::Offset>& offsets = grid_.nearestFirst();
     for (std::size_t place = 0; place < offsets.size() && !left.empty(); ++place) {
+      deadline_.check();
       if (place % kOffsetsPerCheck == 0) {
         const auto gone = std::stable_partition(
             left.begin(), left.end(), [this](Cell cell) { return free_.anyNear(grid_, cell); });

@@ -159,6 +159,13 @@ void EvaluationSession::saveWhenIdle() {
 
 bool EvaluationSession::drain(const std::function<bool()>& stopped,
                               const std::function<bool()>& first_match_due) {
+  const bool all = waitForTheRest(stopped, first_match_due);
+  giveUpTasks();
+  return all;
+}
+
+bool EvaluationSession::waitForTheRest(const std::function<bool()>& stopped,
+                                       const std::function<bool()>& first_match_due) {
   constexpr double kSettled = 0.3;
   // A slow method's next result may be a few of its longest pauses away.
   constexpr double kPauses = 4;
@@ -179,11 +186,36 @@ bool EvaluationSession::drain(const std::function<bool()>& stopped,
   return false;
 }
 
+void EvaluationSession::giveUpTasks() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!evaluator_.hasPendingTasks()) {
+      return;
+    }
+  }
+  const std::vector<EvaluationTask> left = worker_.cancel();
+  if (left.empty()) {
+    return;
+  }
+  const std::string text =
+      std::to_string(left.size()) +
+      " heatmaps and pose estimates still waited at the end; they are left out and counted in "
+      "coverage: lower ~heatmap_budget, or raise ~drain_timeout";
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const EvaluationTask& task : left) {
+      evaluator_.skip(task);
+    }
+    evaluator_.addNote(text);
+  }
+  log_.warning(text);
+}
+
 void EvaluationSession::reset() {
+  worker_.cancel();  // what it brings is of the figures that are forgotten
   {
     const std::scoped_lock lock(save_mutex_, mutex_);
     evaluator_.reset();
-    worker_.clear();
     queue_told_ = false;
     keeper_.startOver();
     longest_gap_ = 0;

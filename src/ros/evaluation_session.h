@@ -35,7 +35,8 @@ class EvaluationSession {
   struct Told {
     std::vector<std::string> notes;
     std::vector<std::string> warnings;
-    std::optional<int> finished_pass;  ///< time jumped back: this pass is over and written
+    std::optional<int> finished_pass;   ///< time jumped back: this pass is over and written
+    std::optional<Stamp> image_offset;  ///< as EvaluationUpdate's
   };
 
   /// `handle` advertises the topics, `private_handle` names the parameters that reports carry;
@@ -73,7 +74,8 @@ class EvaluationSession {
   void saveWhenIdle();
 
   /// Returns once every frame that was heard of has its lines and matches and every task is done,
-  /// or nothing has come for so long that nothing will; false when `stopped` says so before.
+  /// or nothing has come for so long that nothing will; false when `stopped` says so before. Tasks
+  /// that are left then are broken off and counted as skipped.
   /// `first_match_due`: whether matches may come although none has.
   bool drain(const std::function<bool()>& stopped, const std::function<bool()>& first_match_due);
 
@@ -100,7 +102,8 @@ class EvaluationSession {
       }
       metrics_.publish(update, last_header_);
     }
-    Told told{std::move(update.notes), std::move(update.warnings), std::nullopt};
+    Told told{std::move(update.notes), std::move(update.warnings), std::nullopt,
+              update.image_offset};
     if (released) {
       writeQuietly(std::move(*released));
     }
@@ -114,6 +117,9 @@ class EvaluationSession {
   void noteInput(bool of_frame);
   void handOut(EvaluationUpdate* update);
   void onResult(const EvaluationResult& result);
+  bool waitForTheRest(const std::function<bool()>& stopped,
+                      const std::function<bool()>& first_match_due);
+  void giveUpTasks();
   void addProvenance(Report* report) const;
   std::filesystem::path write(Report report);
   void writeQuietly(Report report);

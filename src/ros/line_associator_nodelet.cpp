@@ -134,16 +134,16 @@ class LineAssociatorNodelet : public SafeNodelet {
   }
 
   void take(const FrameLinesJoiner::Result& result) {
-    if (result.jumped_back) {
-      NODELET_INFO("time jumped back: frames of the last pass are forgotten");
-      window_.clear();
-    }
     if (!result.problem.empty()) {
       if (warnings_.due()) {
         NODELET_WARN("%s", result.problem.c_str());
       }
     }
     for (const FrameLinesJoiner::Pair& pair : result.complete) {
+      if (pair.begins_pass) {
+        NODELET_INFO("time jumped back: frames of the last pass are forgotten");
+        window_.clear();
+      }
       try {
         associate(pair);
       } catch (const std::exception& error) {

@@ -199,8 +199,11 @@ evolin_ros::Coverage coverageMessage(const std_msgs::Header& header, const Cover
   message.skipped = static_cast<std::uint32_t>(counts.skipped);
   message.no_depth = static_cast<std::uint32_t>(counts.no_depth);
   message.no_pose = static_cast<std::uint32_t>(counts.no_pose);
+  message.bad_lines = static_cast<std::uint32_t>(counts.bad_lines);
   message.heatmap_skipped = static_cast<std::uint32_t>(counts.heatmap_skipped);
   message.pose_skipped = static_cast<std::uint32_t>(counts.pose_skipped);
+  message.depth_left_out = static_cast<std::uint32_t>(counts.depth_left_out);
+  message.poses_left_out = static_cast<std::uint32_t>(counts.poses_left_out);
   return message;
 }
 

@@ -91,8 +91,8 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
     PoseErrorMetrics errors(options_.evaluation.pose_errors);
     errors.addPair(pair.pair);
     pose_frame_.publish(poseMessage(headOf(pair.stamp), errors,
-                                    toString(options_.motion.pose_method.strategy),
-                                    options_.frame_step, options_.auc_thresholds));
+                                    toString(options_.motion.pose_method.strategy), pair.frame_step,
+                                    options_.auc_thresholds));
   }
 }
 
@@ -127,7 +127,7 @@ void MetricPublishers::publishSums(const StreamEvaluator& evaluator,
   if (wants(MetricFamily::kPose)) {
     pose_cumulative_.publish(poseMessage(headFor(sums.pose().pairs()), sums.pose(),
                                          toString(options_.motion.pose_method.strategy),
-                                         options_.frame_step, options_.auc_thresholds));
+                                         pass.poseStep(), options_.auc_thresholds));
   }
   if (wants(MetricFamily::kTracks)) {
     tracks_cumulative_.publish(trackMessage(headFor(0), pass.tracks()));

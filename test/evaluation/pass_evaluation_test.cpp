@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <limits>
 
 #include "test/evaluation/sample_frames.h"
@@ -61,33 +62,34 @@ TEST(PassEvaluation, EveryFrameEndsInOneState) {
   PassOptions options = withBuffer(4);
   options.families = {MetricFamily::kDetection, MetricFamily::kAssociation};
   PassEvaluation pass(options);
-  pass.addImage(1);                   // its lines never come
-  pass.addGroundTruth(handTruth(2));  // has to leave the buffer before its lines come
-  pass.addLines(handLines(3));        // its ground truth never comes
-  pass.addLines(handLines(4));
-  pass.addGroundTruth(annotated(4, {line(9, 9, 9, 9)}));
-  LineSet other_size = handLines(5);
+  pass.addImage(1 * kSecond);                   // its lines never come
+  pass.addGroundTruth(handTruth(2 * kSecond));  // has to leave the buffer before its lines come
+  pass.addLines(handLines(3 * kSecond));        // its ground truth never comes
+  pass.addLines(handLines(4 * kSecond));
+  pass.addGroundTruth(annotated(4 * kSecond, {line(9, 9, 9, 9)}));
+  LineSet other_size = handLines(5 * kSecond);
   other_size.width = 64;
   pass.addLines(other_size);
-  pass.addGroundTruth(handTruth(5));
-  pass.addLines(handLines(6));
-  pass.addGroundTruth(handTruth(6));
-  pass.addLines(handLines(2));
-  pass.addImage(7);
+  pass.addGroundTruth(handTruth(5 * kSecond));
+  pass.addImage(6 * kSecond);
+  pass.addLines(handLines(6 * kSecond));
+  pass.addGroundTruth(handTruth(6 * kSecond));
+  pass.addLines(handLines(2 * kSecond));
+  pass.addImage(7 * kSecond);
 
   const Report now = pass.report(false);
-  EXPECT_EQ(stateAt(now, 1), FrameState::kWaiting);
-  EXPECT_EQ(stateAt(now, 2), FrameState::kDropped);
-  EXPECT_EQ(stateAt(now, 3), FrameState::kWaiting);
-  EXPECT_EQ(stateAt(now, 4), FrameState::kBadGroundTruth);
-  EXPECT_EQ(stateAt(now, 5), FrameState::kSkipped);
-  EXPECT_EQ(stateAt(now, 6), FrameState::kEvaluated);
+  EXPECT_EQ(stateAt(now, 1 * kSecond), FrameState::kWaiting);
+  EXPECT_EQ(stateAt(now, 2 * kSecond), FrameState::kDropped);
+  EXPECT_EQ(stateAt(now, 3 * kSecond), FrameState::kWaiting);
+  EXPECT_EQ(stateAt(now, 4 * kSecond), FrameState::kBadGroundTruth);
+  EXPECT_EQ(stateAt(now, 5 * kSecond), FrameState::kSkipped);
+  EXPECT_EQ(stateAt(now, 6 * kSecond), FrameState::kEvaluated);
   EXPECT_EQ(now.coverage.waiting, 3U);
   EXPECT_FALSE(now.complete);
 
   const Report end = pass.report(true);
-  EXPECT_EQ(stateAt(end, 1), FrameState::kUnmatched);
-  EXPECT_EQ(stateAt(end, 3), FrameState::kNoGroundTruth);
+  EXPECT_EQ(stateAt(end, 1 * kSecond), FrameState::kUnmatched);
+  EXPECT_EQ(stateAt(end, 3 * kSecond), FrameState::kNoGroundTruth);
   EXPECT_EQ(end.coverage.seen, 7U);
   EXPECT_EQ(end.coverage.waiting, 0U);
   EXPECT_EQ(end.coverage.evaluated, 1U);
@@ -100,6 +102,69 @@ TEST(PassEvaluation, EveryFrameEndsInOneState) {
   ASSERT_EQ(end.notes.size(), 2U);
   EXPECT_NE(end.notes[0].find("row 0"), std::string::npos) << end.notes[0];
   EXPECT_NE(end.notes[1].find("64x128"), std::string::npos) << end.notes[1];
+}
+
+/// Frames a tenth of a second apart with camera_info `offset` after each, but for frame `lost`.
+Report reportWithImages(int frames, Stamp offset, int lost, std::vector<Stamp>* told) {
+  constexpr Stamp kPeriod = kSecond / 10;
+  PassOptions options;
+  options.families = {MetricFamily::kDetection};
+  PassEvaluation pass(options);
+  const auto take = [told](const EvaluationUpdate& update) {
+    if (update.image_offset) told->push_back(*update.image_offset);
+  };
+  for (int i = 0; i < frames; ++i) {
+    const Stamp stamp = kSecond + i * kPeriod;
+    take(pass.addImage(stamp + offset));
+    if (i == lost) continue;
+    take(pass.addLines(handLines(stamp)));
+    take(pass.addGroundTruth(handTruth(stamp)));
+    expectEqual(pass.coverage(), pass.report(false).coverage);
+  }
+  EXPECT_EQ(pass.waiting(), lost < frames);
+  return pass.report(true);
+}
+
+TEST(PassEvaluation, ImagesWithStampsOfTheirOwnAreNoFrames) {
+  constexpr Stamp kMillisecond = kSecond / 1000;
+  for (const int frames : {3, 12, 40}) {
+    // 45 ms: beyond the tolerance, but no image ever has the stamp of a frame.
+    for (const Stamp offset : {Stamp{1}, 5 * kMillisecond, -5 * kMillisecond, 45 * kMillisecond}) {
+      SCOPED_TRACE(std::to_string(frames) + " frames, offset " + std::to_string(offset));
+      std::vector<Stamp> told;
+      const Report report = reportWithImages(frames, offset, frames, &told);
+      EXPECT_EQ(report.coverage.seen, static_cast<std::size_t>(frames));
+      EXPECT_EQ(report.coverage.evaluated, static_cast<std::size_t>(frames));
+      EXPECT_EQ(report.frames.size(), static_cast<std::size_t>(frames));
+      ASSERT_EQ(report.notes.size(), 1U);
+      EXPECT_NE(report.notes[0].find("camera_info"), std::string::npos) << report.notes[0];
+      if (frames > 10) {
+        EXPECT_EQ(told, std::vector<Stamp>{std::abs(offset)}) << "once";
+      }
+    }
+  }
+}
+
+TEST(PassEvaluation, AnImageWhoseLinesNeverComeIsCounted) {
+  for (const int lost : {0, 3, 38}) {
+    std::vector<Stamp> told;
+    const Report report = reportWithImages(40, 0, lost, &told);
+    EXPECT_EQ(report.coverage.seen, 40U);
+    EXPECT_EQ(report.coverage.unmatched, 1U);
+    EXPECT_EQ(stateAt(report, kSecond + lost * (kSecond / 10)), FrameState::kUnmatched);
+    EXPECT_TRUE(told.empty());
+    EXPECT_TRUE(report.notes.empty());
+  }
+}
+
+TEST(PassEvaluation, OfImagesSomeOffTheFramesOnlyThoseAreLeftOut) {
+  PassEvaluation pass;
+  for (int i = 0; i < 20; ++i) {
+    const Stamp stamp = (i + 1) * kSecond;
+    pass.addImage(i % 2 == 0 ? stamp : stamp + 200);  // as rounded on the way
+    pass.addLines(handLines(stamp));
+  }
+  EXPECT_EQ(pass.report(true).coverage.seen, 20U);
 }
 
 TEST(PassEvaluation, AskingForTheEndDoesNotEndThePass) {

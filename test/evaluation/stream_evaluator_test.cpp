@@ -171,6 +171,25 @@ TEST(StreamEvaluator, AMessageWithoutAStampIsCountedAndToldOnce) {
   EXPECT_EQ(report.notes[0].rfind("lines: ", 0), 0U) << report.notes[0];
 }
 
+TEST(StreamEvaluator, DepthAndPosesWithoutAStampAreCountedAndToldOnce) {
+  StreamEvaluator stream;
+  std::vector<std::string> warnings;
+  for (int i = 0; i < 3; ++i) {
+    EvaluationUpdate update = stream.addPose({0, Pose()});
+    update.append(stream.addDepth(0, DepthMap(cv::Mat1f(2, 2, 1.0F))));
+    warnings.insert(warnings.end(), update.warnings.begin(), update.warnings.end());
+  }
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("poses_left_out"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("depth_left_out"), std::string::npos) << warnings[1];
+  const Report report = stream.report(true);
+  EXPECT_EQ(report.coverage.poses_left_out, 3U);
+  EXPECT_EQ(report.coverage.depth_left_out, 3U);
+  EXPECT_EQ(report.coverage.seen, 0U);
+  EXPECT_EQ(stream.coverage().poses_left_out, 3U);
+  EXPECT_EQ(report.notes.size(), 2U);
+}
+
 TEST(StreamEvaluator, TwoMethodsOnOneInputAreTold) {
   StreamEvaluator stream;
   std::vector<std::string> warnings;
@@ -287,8 +306,10 @@ TEST(StreamEvaluator, AnInputThatSleptThroughPassesCatchesUp) {
   stream.addLines(handLines(4));
   EXPECT_EQ(stream.previousReport()->frames.at(0).lines, 3U);
   stream.addLines(handLines(4 - 1));
+  stream.addLines(handLines(4));
   EXPECT_EQ(stream.pass(), 6);
-  EXPECT_EQ(stream.report(true).coverage.seen, 4U);
+  EXPECT_EQ(stream.report(true).frames.front().stamp, 3);
+  EXPECT_EQ(stream.report(true).coverage.no_ground_truth, 2U);
 }
 
 TEST(StreamEvaluator, DisorderIsNoJump) {

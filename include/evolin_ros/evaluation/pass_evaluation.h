@@ -39,6 +39,8 @@ struct EvaluationUpdate {
   std::vector<EvaluationTask> tasks;  ///< to be run, and their results added or the task skipped
   std::vector<std::string> notes;     ///< new ones, for the log
   std::vector<std::string> warnings;  ///< faults of the input, for the log; each kind is told once
+  /// Told once: stamps of images (camera_info) are not those of the lines, but this far off, ns.
+  std::optional<Stamp> image_offset;
   bool new_pass = false;
 
   void append(EvaluationUpdate other);
@@ -50,7 +52,9 @@ class PassEvaluation {
  public:
   explicit PassEvaluation(PassOptions options = {});
 
-  /// An image was there; its lines are awaited.
+  /// An image was there; its lines are awaited. What tells of images is a companion of theirs
+  /// (camera_info), whose stamp may be slightly off: one near a frame that has no image of its own
+  /// stamp is of that frame, and none is an image as long as no frame has one of its own stamp.
   EvaluationUpdate addImage(Stamp stamp);
   EvaluationUpdate addLines(LineSet lines);
   EvaluationUpdate addGroundTruth(LineSet ground_truth);
@@ -75,6 +79,13 @@ class PassEvaluation {
   void countDroppedFrame(const std::string& text);
   void countSkippedPair(const std::string& text);
 
+  /// A depth image or a camera pose cannot belong to any frame.
+  void countLeftOutDepth(const std::string& text);
+  void countLeftOutPose(const std::string& text);
+
+  /// Goes to the report.
+  void addNote(const std::string& text) { keepNote(text); }
+
   /// The figures so far. With `complete` nothing is waited for any more, and waiting frames are
   /// counted by what they lack.
   Report report(bool complete) const;
@@ -87,6 +98,9 @@ class PassEvaluation {
   bool waiting() const;
 
   const MotionEvaluation& motion() const { return motion_; }
+
+  /// Images from the first to the second frame of every pose estimate so far; 0: it differs.
+  int poseStep() const { return pose_steps_.size() == 1 ? *pose_steps_.begin() : 0; }
 
   /// Follows all lines from the beginning: time grows with what was received.
   TrackReport tracks() const;
@@ -112,6 +126,15 @@ class PassEvaluation {
   Entry& entryAt(Stamp stamp);
   std::uint32_t placeOfLines(Stamp stamp);
   void setState(Entry* entry, FrameState state);
+  void noteFrame(Stamp stamp, const Entry& entry);
+  bool standsForAnother(Stamp image) const;
+  int stepBetween(Stamp first, Stamp second) const;
+  std::vector<Stamp> imagesOfOthers() const;
+  std::optional<Stamp> nearestFrameTo(Stamp image) const;
+  void settleImages(EvaluationUpdate* update);
+  Stamp offsetOf(Stamp image) const;
+  std::string imageOffsetNote() const;
+  void noteLines(Stamp stamp);
   void evaluateFrame(Entry* entry, EvaluationUpdate* update);
   void evaluatePairsOf(Stamp stamp, EvaluationUpdate* update);
   /// True when the pair is settled one way or the other.
@@ -135,7 +158,14 @@ class PassEvaluation {
   PassOptions options_;
   SequenceEvaluator evaluator_;
   std::map<Stamp, Entry> entries_;
-  std::set<Stamp> held_;  ///< entries that hold lines or ground truth
+  std::set<Stamp> held_;               ///< entries that hold lines or ground truth
+  std::set<Stamp> images_alone_;       ///< images without lines or ground truth, not settled yet
+  std::size_t frames_heard_ = 0;       ///< with lines or ground truth
+  std::size_t exact_images_ = 0;       ///< frames among them whose image has their stamp
+  std::set<Stamp> newest_with_lines_;  ///< frames, as many as it takes to overtake an image
+  std::set<Stamp> images_doubted_;     ///< overtaken, before any frame had an image of its stamp
+  std::optional<Stamp> dropped_image_offset_;
+  bool image_offset_told_ = false;
   std::map<PairKey, MatchSet> pending_pairs_;
   std::map<PairKey, MatchSet> pending_detected_pairs_;
   std::vector<PairRecord> pair_records_;
@@ -144,6 +174,7 @@ class PassEvaluation {
   MotionEvaluation motion_;
   std::vector<RepeatabilityRecord> repeatability_records_;
   std::vector<PoseRecord> pose_records_;
+  std::set<int> pose_steps_;
   std::size_t heatmaps_pending_ = 0;
   std::size_t poses_pending_ = 0;
   PairCounts pair_counts_;

@@ -50,8 +50,11 @@ struct CoverageCounts {
   // Besides: a frame may be evaluated and lack what one family needs.
   std::size_t no_depth = 0;         ///< frames with lines to which no depth image belongs
   std::size_t no_pose = 0;          ///< frames with lines without a camera pose
+  std::size_t bad_lines = 0;        ///< frames with lines that are not finite
   std::size_t heatmap_skipped = 0;  ///< frames left out of the heatmap for want of time
   std::size_t pose_skipped = 0;     ///< pairs left out of relative pose for want of time
+  std::size_t depth_left_out = 0;   ///< depth images without a stamp
+  std::size_t poses_left_out = 0;   ///< camera poses without a stamp
 
   void add(FrameState state);
   void remove(FrameState state);
@@ -154,7 +157,7 @@ struct RepeatabilityReport {
 
 struct PoseReport {
   PoseMethodOptions method;
-  int frame_step = 1;
+  int frame_step = 0;  ///< images from the first to the second of every pair; 0: it differs
   std::vector<double> auc_thresholds;  ///< degrees
   PoseErrorMetrics errors;
   std::size_t pending = 0;  ///< still being estimated

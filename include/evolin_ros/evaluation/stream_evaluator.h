@@ -19,8 +19,9 @@ namespace evolin {
 /// taken where it belongs, at the start of a pass too if another input has had it in this pass; a
 /// stamp that comes twice in a row, or the newest one again, is a duplicate: the first is taken.
 /// The two newest passes are kept. What cannot be taken (duplicates, stamp 0, parts of an older
-/// pass) is counted as dropped, of matches as skipped, and warned of; only images, which bring
-/// nothing but their stamp, leave no trace. Not safe for several threads at once.
+/// pass) is counted as dropped, of matches as skipped, and warned of; images, which bring nothing
+/// but their stamp, leave no trace, depth and poses only where they have no stamp. Not safe for
+/// several threads at once.
 class StreamEvaluator {
  public:
   explicit StreamEvaluator(PassOptions options = {});
@@ -55,6 +56,10 @@ class StreamEvaluator {
   /// Of the newest pass, cheap at any number of frames.
   CoverageCounts coverage() const { return current().coverage(); }
 
+  /// For the report of the newest pass.
+  void addNote(const std::string& text) { passes_.at(newest_).addNote(text); }
+
+  bool hasPendingTasks() const;
   bool waiting() const;
   int pass() const { return newest_; }
   const PassEvaluation& current() const { return passes_.at(newest_); }

@@ -2,6 +2,7 @@
 // done on any thread, its result handed back.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -49,7 +50,9 @@ struct TaskOptions {
 /// Safe for several threads.
 class TaskRunner {
  public:
-  explicit TaskRunner(const TaskOptions& options);
+  /// A heatmap is broken off, with that for its reason, once `stop` is true; it outlives the
+  /// runner. Pose estimates take milliseconds and end by themselves. None: nothing stops a task.
+  explicit TaskRunner(const TaskOptions& options, const std::atomic<bool>* stop = nullptr);
 
   EvaluationResult run(const EvaluationTask& task) const;
 
