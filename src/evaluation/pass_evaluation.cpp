@@ -72,7 +72,11 @@ void EvaluationUpdate::append(EvaluationUpdate other) {
 PassEvaluation::PassEvaluation(PassOptions options)
     : options_(std::move(options)),
       evaluator_(options_.evaluation),
-      motion_(motionOptionsOf(options_)) {}
+      motion_(motionOptionsOf(options_)) {
+  if (options_.matches_from_ids) {
+    id_matcher_.emplace(options_.frame_step);
+  }
+}
 
 PassEvaluation::Entry& PassEvaluation::entryAt(Stamp stamp) {
   const auto [place, is_new] = entries_.try_emplace(stamp);
@@ -112,7 +116,7 @@ EvaluationUpdate PassEvaluation::addImage(Stamp stamp) {
   return update;
 }
 
-EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
+EvaluationUpdate PassEvaluation::takeLines(LineSet lines) {
   EvaluationUpdate update;
   const Stamp stamp = lines.stamp;
   Entry& entry = entryAt(stamp);
@@ -166,7 +170,7 @@ EvaluationUpdate PassEvaluation::addGroundTruth(LineSet ground_truth) {
   return update;
 }
 
-EvaluationUpdate PassEvaluation::addMatches(MatchSet matches) {
+EvaluationUpdate PassEvaluation::takeMatches(MatchSet matches) {
   EvaluationUpdate update;
   if (!isMeasured(matches.processing_time)) {
     matches.processing_time = 0;
