@@ -148,9 +148,13 @@ bool Manager::unload(const std::string& name) {
   return answer && answer->success != 0;
 }
 
+::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic) {
+  return waitFor("a listener to " + topic + " of " + node,
+                 [&] { return isConnected(node, topic); });
+}
+
 ::testing::AssertionResult Manager::waitForListener(const std::string& topic) const {
-  return waitFor("a listener to " + space_ + "/" + topic,
-                 [&] { return isConnected(space_ + "/manager", space_ + "/" + topic); });
+  return ::evolin::test::waitForListener(space_ + "/manager", space_ + "/" + topic);
 }
 
 }  // namespace evolin::test

@@ -33,6 +33,9 @@ class Process {
   std::optional<int> status_;
 };
 
+/// Waits until what `node` publishes on `topic` reaches somebody; both are whole names.
+::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic);
+
 /// A nodelet manager in a process of its own, with four threads as manager.launch has it.
 class Manager {
  public:
