@@ -14,16 +14,16 @@
 #include "conversions.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
+#include "evolin_ros/drawing/overlay.h"
 #include "frame_lines_joiner.h"
 #include "node_parameters.h"
-#include "evolin_ros/drawing/overlay.h"
 #include "plugin_loader.h"
 #include "safe_nodelet.h"
 #include "topic_watchdog.h"
 #include "topics.h"
 #include "wall_throttle.h"
 
-namespace evolin {
+namespace evolin::ros_shell {
 
 class LineAssociatorNodelet : public SafeNodelet {
  private:
@@ -214,6 +214,6 @@ class LineAssociatorNodelet : public SafeNodelet {
   ros::Publisher matches_;
 };
 
-}  // namespace evolin
+}  // namespace evolin::ros_shell
 
 PLUGINLIB_EXPORT_CLASS(evolin::ros_shell::LineAssociatorNodelet, nodelet::Nodelet)

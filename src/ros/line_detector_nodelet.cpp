@@ -12,8 +12,8 @@
 #include "conversions.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
-#include "node_parameters.h"
 #include "evolin_ros/drawing/overlay.h"
+#include "node_parameters.h"
 #include "plugin_loader.h"
 #include "safe_nodelet.h"
 #include "sequence_gaps.h"
@@ -21,7 +21,7 @@
 #include "topics.h"
 #include "wall_throttle.h"
 
-namespace evolin {
+namespace evolin::ros_shell {
 
 class LineDetectorNodelet : public SafeNodelet {
  private:
@@ -181,6 +181,6 @@ class LineDetectorNodelet : public SafeNodelet {
   ros::Publisher lines_;
 };
 
-}  // namespace evolin
+}  // namespace evolin::ros_shell
 
 PLUGINLIB_EXPORT_CLASS(evolin::ros_shell::LineDetectorNodelet, nodelet::Nodelet)
