@@ -21,7 +21,7 @@ evolin::EvaluatedFrame makeFrame() {
   }
   frame.ground_truth = random.anywhere(80, kSize.width, kSize.height);
   frame.lines = random.detectionsOf(frame.ground_truth, 400, 12);
-  frame.verdicts = evolin::judgeLines(kSetting, evolin::Protocol::kEvolin, "0", kSize, frame.lines,
+  frame.verdicts = evolin::judgeLines(kSetting, evolin::Protocol::kEvolin, kSize, frame.lines,
                                       frame.ground_truth, true);
   for (std::uint32_t row = 0; row < 80; ++row) {
     evolin::LineTrail trail{row, row, {}};
@@ -40,7 +40,7 @@ evolin::EvaluatedFrame makeFrame() {
 void judge(benchmark::State& state) {
   const evolin::EvaluatedFrame frame = makeFrame();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(evolin::judgeLines(kSetting, evolin::Protocol::kEvolin, "0", kSize,
+    benchmark::DoNotOptimize(evolin::judgeLines(kSetting, evolin::Protocol::kEvolin, kSize,
                                                 frame.lines, frame.ground_truth, true));
   }
 }

@@ -174,7 +174,7 @@ void drawVerdicts(const EvaluatedFrame& frame, const ViewOptions& options, Canva
   // What was done well comes last and stays visible.
   if (options.misses) {
     for (std::size_t row = 0; row < frame.ground_truth.size(); ++row) {
-      if (frame.verdicts.taken_by[row] < 0) {
+      if (!frame.verdicts.found[row]) {
         canvas->drawLine(frame.ground_truth[row], penOf(palette::kMissed, options, true));
       }
     }
@@ -216,9 +216,9 @@ void checkFrame(const EvaluatedFrame& frame) {
                 ": expected pixels of one or three 8-bit channels");
   }
   if (isJudged(frame) && (frame.verdicts.predicted.size() != frame.lines.size() ||
-                          frame.verdicts.taken_by.size() != frame.ground_truth.size())) {
+                          frame.verdicts.found.size() != frame.ground_truth.size())) {
     throw Error("verdicts on " + std::to_string(frame.verdicts.predicted.size()) + " and " +
-                std::to_string(frame.verdicts.taken_by.size()) + " lines: expected " +
+                std::to_string(frame.verdicts.found.size()) + " lines: expected " +
                 std::to_string(frame.lines.size()) + " detected and " +
                 std::to_string(frame.ground_truth.size()) + " true ones");
   }

@@ -10,36 +10,42 @@
 
 namespace evolin {
 
+namespace {
+
+/// The caller knows which one it is.
+constexpr char kFrame[] = "(the one judged)";
+
+}  // namespace
+
 std::size_t LineVerdicts::count(LineVerdict verdict) const {
   return static_cast<std::size_t>(std::count(predicted.begin(), predicted.end(), verdict));
 }
 
 std::size_t LineVerdicts::misses() const {
-  return static_cast<std::size_t>(std::count(taken_by.begin(), taken_by.end(), -1));
+  return static_cast<std::size_t>(std::count(found.begin(), found.end(), false));
 }
 
-LineVerdicts judgeLines(const VectorizedSetting& setting, Protocol protocol,
-                        const std::string& frame_name, ImageSize size,
+LineVerdicts judgeLines(const VectorizedSetting& setting, Protocol protocol, ImageSize size,
                         const LineSegments& predicted, const LineSegments& ground_truth,
                         bool scored) {
   if (!(setting.threshold > 0) || !std::isfinite(setting.threshold)) {
     throw Error("distance threshold " + formatDouble(setting.threshold) +
                 ": expected a positive, finite number of pixels");
   }
-  checkSize(frame_name, size);
-  const LineSegments truth = prepareGroundTruth(frame_name, size, ground_truth);
+  checkSize(kFrame, size);
+  const LineSegments truth = prepareGroundTruth(kFrame, size, ground_truth);
   const PreparedPredictions prepared =
-      preparePredictions(frame_name, size, predicted, scored, protocol);
+      preparePredictions(kFrame, size, predicted, scored, protocol);
   LineVerdicts verdicts;
   verdicts.predicted.assign(predicted.size(), LineVerdict::kDropped);
   for (const std::uint32_t row : prepared.rows) {
     verdicts.predicted[row] = LineVerdict::kFalsePositive;
   }
-  verdicts.taken_by = findTakers(prepared.lines, truth, scored, setting, protocol);
-  for (std::int64_t& taker : verdicts.taken_by) {
+  for (const std::int64_t taker : findTakers(prepared.lines, truth, scored, setting, protocol)) {
+    verdicts.found.push_back(taker >= 0);
     if (taker >= 0) {
-      taker = prepared.rows[static_cast<std::size_t>(taker)];
-      verdicts.predicted[static_cast<std::size_t>(taker)] = LineVerdict::kTruePositive;
+      verdicts.predicted[prepared.rows[static_cast<std::size_t>(taker)]] =
+          LineVerdict::kTruePositive;
     }
   }
   return verdicts;

@@ -62,8 +62,7 @@ void ViewFrames::judge(const ViewParts& parts, EvaluatedFrame* frame) {
     }
     LineSegments ground_truth = fromMessage(*parts.ground_truth).lines;
     frame->verdicts = judgeLines({LineDistance::kStructural, options_.threshold}, options_.protocol,
-                                 formatStamp(fromRos(parts.lines->header.stamp)), size,
-                                 frame->lines, ground_truth, parts.lines->has_scores);
+                                 size, frame->lines, ground_truth, parts.lines->has_scores);
     frame->ground_truth = std::move(ground_truth);
   } catch (const Error& error) {
     frame->no_verdicts = std::string("not judged: ") + error.what();

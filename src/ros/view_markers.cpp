@@ -139,8 +139,8 @@ visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const 
   maker.border(frame.image.cols, frame.image.rows);
   maker.end();
   maker.begin("misses", palette::kMissed);
-  for (std::size_t row = 0; options.misses && row < frame.verdicts.taken_by.size(); ++row) {
-    if (frame.verdicts.taken_by[row] < 0) {
+  for (std::size_t row = 0; options.misses && row < frame.verdicts.found.size(); ++row) {
+    if (!frame.verdicts.found[row]) {
       maker.line(frame.ground_truth[row]);
     }
   }

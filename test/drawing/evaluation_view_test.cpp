@@ -29,7 +29,7 @@ EvaluatedFrame sample() {
   frame.ground_truth = {line(100, 50, 300, 50), line(100, 200, 300, 200)};
   frame.verdicts.predicted = {LineVerdict::kTruePositive, LineVerdict::kFalsePositive,
                               LineVerdict::kDropped};
-  frame.verdicts.taken_by = {0, -1};
+  frame.verdicts.found = {true, false};
   frame.title = "opencv_lsd";
   frame.judged_by = "structural distance < 5";
   frame.sections = {{"so far", {{"F-score", "24.0 %"}}}};

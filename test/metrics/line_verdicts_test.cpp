@@ -12,7 +12,7 @@ namespace {
 
 using test::kUnit;
 using test::segment;
-using Takers = std::vector<std::int64_t>;
+using Found = std::vector<bool>;
 using Verdicts = std::vector<LineVerdict>;
 
 constexpr LineVerdict kTrue = LineVerdict::kTruePositive;
@@ -25,9 +25,9 @@ TEST(JudgeLines, NamesTheRowOfEveryVerdict) {
                                   segment(11, 11, 41, 16), segment(10, 12, 40, 17)};
   const LineSegments truth = {segment(100, 100, 120, 110), segment(40, 17, 10, 12)};
   const LineVerdicts verdicts =
-      judgeLines(kStructuralFive, Protocol::kEvolin, "0000", kUnit, predicted, truth, false);
+      judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, predicted, truth, false);
   EXPECT_EQ(verdicts.predicted, (Verdicts{kFalse, kDropped, kFalse, kTrue}));
-  EXPECT_EQ(verdicts.taken_by, (Takers{-1, 3}));
+  EXPECT_EQ(verdicts.found, (Found{false, true}));
   EXPECT_EQ(verdicts.count(kFalse), 2U);
   EXPECT_EQ(verdicts.misses(), 1U);
 }
@@ -36,26 +36,22 @@ TEST(JudgeLines, TheHigherScoreTakesTheLine) {
   const LineSegments truth = {segment(10, 10, 40, 20)};
   const LineSegments predicted = {segment(10, 10, 40, 20, 0.3), segment(11, 10, 40, 20, 0.9)};
   const LineVerdicts verdicts =
-      judgeLines(kStructuralFive, Protocol::kEvolin, "0000", kUnit, predicted, truth, true);
+      judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, predicted, truth, true);
   EXPECT_EQ(verdicts.predicted, (Verdicts{kFalse, kTrue}));
-  EXPECT_EQ(verdicts.taken_by, (Takers{1}));
+  EXPECT_EQ(verdicts.found, (Found{true}));
 }
 
 TEST(JudgeLines, FollowsTheProtocolAtTheThresholdAndOnLevelLines) {
   const LineSegments truth = {segment(10, 10, 40, 10)};
   const LineSegments level = {segment(10, 13, 40, 12)};  // at exactly 5
-  EXPECT_EQ(
-      judgeLines(kStructuralFive, Protocol::kEvolin, "0", kUnit, level, truth, false).predicted,
-      Verdicts{kFalse});
-  EXPECT_EQ(
-      judgeLines(kStructuralFive, Protocol::kPaper, "0", kUnit, level, truth, false).predicted,
-      Verdicts{kTrue});
-  EXPECT_EQ(
-      judgeLines(kStructuralFive, Protocol::kEvolin, "0", kUnit, truth, truth, false).predicted,
-      Verdicts{kDropped});
-  EXPECT_EQ(
-      judgeLines(kStructuralFive, Protocol::kPaper, "0", kUnit, truth, truth, false).predicted,
-      Verdicts{kTrue});
+  EXPECT_EQ(judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, level, truth, false).predicted,
+            Verdicts{kFalse});
+  EXPECT_EQ(judgeLines(kStructuralFive, Protocol::kPaper, kUnit, level, truth, false).predicted,
+            Verdicts{kTrue});
+  EXPECT_EQ(judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, truth, truth, false).predicted,
+            Verdicts{kDropped});
+  EXPECT_EQ(judgeLines(kStructuralFive, Protocol::kPaper, kUnit, truth, truth, false).predicted,
+            Verdicts{kTrue});
 }
 
 TEST(JudgeLines, AgreesWithTheMetricsCounts) {
@@ -70,7 +66,7 @@ TEST(JudgeLines, AgreesWithTheMetricsCounts) {
     metrics.addFrame(0, "0000", {640, 480}, predicted, truth, scored);
     for (std::size_t k = 0; k < metrics.settings().size(); ++k) {
       const LineVerdicts verdicts =
-          judgeLines(metrics.settings()[k], protocol, "0000", {640, 480}, predicted, truth, scored);
+          judgeLines(metrics.settings()[k], protocol, {640, 480}, predicted, truth, scored);
       ASSERT_EQ(verdicts.predicted.size(), predicted.size());
       test::expectCounts(metrics.classification(k), verdicts.count(kTrue),
                          verdicts.count(kTrue) + verdicts.count(kFalse), truth.size());
@@ -82,18 +78,17 @@ TEST(JudgeLines, AgreesWithTheMetricsCounts) {
 TEST(JudgeLines, RefusesWhatTheMetricRefuses) {
   test::expectError<GroundTruthError>(
       [] {
-        judgeLines(kStructuralFive, Protocol::kEvolin, "0007", kUnit, {}, {segment(1, 1, 300, 300)},
-                   false);
+        judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, {}, {segment(1, 1, 300, 300)}, false);
       },
-      {"0007", "row 0", "128 x 128"});
+      {"row 0", "128 x 128"});
   test::expectError<Error>(
       [] {
-        judgeLines(kStructuralFive, Protocol::kEvolin, "0007", {0, 4}, {}, {}, false);
+        judgeLines(kStructuralFive, Protocol::kEvolin, {0, 4}, {}, {}, false);
       },
-      {"0007", "0 x 4"});
+      {"0 x 4"});
   test::expectError<Error>(
       [] {
-        judgeLines({LineDistance::kStructural, 0}, Protocol::kEvolin, "0", kUnit, {}, {}, false);
+        judgeLines({LineDistance::kStructural, 0}, Protocol::kEvolin, kUnit, {}, {}, false);
       },
       {"threshold 0", "positive"});
 }

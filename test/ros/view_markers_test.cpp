@@ -37,7 +37,7 @@ EvaluatedFrame sample() {
   frame.ground_truth = {line(5, 5, 6, 6), line(320, 240, 420, 240)};
   frame.verdicts.predicted = {LineVerdict::kTruePositive, LineVerdict::kFalsePositive,
                               LineVerdict::kFalsePositive};
-  frame.verdicts.taken_by = {-1, 0};
+  frame.verdicts.found = {false, true};
   frame.trails = {{4, 0, {{10, 10}, {20, 20}, {30, 30}}}};
   return frame;
 }

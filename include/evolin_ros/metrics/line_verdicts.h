@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "evolin_ros/geometry/image_size.h"
@@ -19,9 +17,7 @@ enum class LineVerdict { kTruePositive, kFalsePositive, kDropped };
 
 struct LineVerdicts {
   std::vector<LineVerdict> predicted;  ///< one a predicted line
-  /// For every ground-truth line the row of the prediction that is its true positive, or -1:
-  /// missed.
-  std::vector<std::int64_t> taken_by;
+  std::vector<bool> found;             ///< one a ground-truth line: it has a true positive
 
   std::size_t count(LineVerdict verdict) const;
   std::size_t misses() const;
@@ -30,8 +26,7 @@ struct LineVerdicts {
 /// The verdicts behind the counts that VectorizedMetrics gives of this frame under `setting`; takes
 /// and throws the same as its addFrame(), and Error for a threshold that is not positive and
 /// finite.
-LineVerdicts judgeLines(const VectorizedSetting& setting, Protocol protocol,
-                        const std::string& frame_name, ImageSize size,
+LineVerdicts judgeLines(const VectorizedSetting& setting, Protocol protocol, ImageSize size,
                         const LineSegments& predicted, const LineSegments& ground_truth,
                         bool scored);
 
