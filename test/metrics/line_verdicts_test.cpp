@@ -1,90 +1,97 @@
-// Verdicts on single lines: by hand, and against the counts of the metrics.
+// Verdicts on single lines: cases by hand, and agreement with the metric's own counts.
 #include "evolin_ros/metrics/line_verdicts.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "test/evaluation/sample_frames.h"
+#include "test/metrics/vectorized_support.h"
 #include "test/support/expect_error.h"
+#include "test/support/random_lines.h"
 
-namespace evolin::test {
+namespace evolin {
 namespace {
 
-constexpr ImageSize kSize{kSide, kSide};
+using test::kUnit;
+using test::segment;
+using Found = std::vector<bool>;
 using Verdicts = std::vector<LineVerdict>;
-constexpr LineVerdict kHit = LineVerdict::kTruePositive;
-constexpr LineVerdict kMiss = LineVerdict::kFalsePositive;
 
-TEST(LineVerdicts, OfTheHandMadeFrame) {
-  const LineSegments truth = handTruth(0).lines;
-  const LineSegments lines = handLines(0).lines;
-  LineVerdicts verdicts =
-      judgeLines({LineDistance::kStructural, 5}, Protocol::kEvolin, kSize, lines, truth, true);
-  EXPECT_EQ(verdicts.predicted, (Verdicts{kHit, kMiss, kMiss}));
-  EXPECT_EQ(verdicts.found, (std::vector<bool>{true, false}));
-  verdicts =
-      judgeLines({LineDistance::kOrthogonal, 5}, Protocol::kEvolin, kSize, lines, truth, true);
-  EXPECT_EQ(verdicts.predicted, (Verdicts{kHit, kHit, kMiss}));
-  EXPECT_EQ(verdicts.found, (std::vector<bool>{true, true}));
+constexpr LineVerdict kTrue = LineVerdict::kTruePositive;
+constexpr LineVerdict kFalse = LineVerdict::kFalsePositive;
+constexpr LineVerdict kDropped = LineVerdict::kDropped;
+constexpr VectorizedSetting kStructuralFive{LineDistance::kStructural, 5};
+
+TEST(JudgeLines, NamesTheRowOfEveryVerdict) {
+  const LineSegments predicted = {segment(70, 10, 90, 12), segment(10, 10, 40, 10),
+                                  segment(11, 11, 41, 16), segment(10, 12, 40, 17)};
+  const LineSegments truth = {segment(100, 100, 120, 110), segment(40, 17, 10, 12)};
+  const LineVerdicts verdicts =
+      judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, predicted, truth, false);
+  EXPECT_EQ(verdicts.predicted, (Verdicts{kFalse, kDropped, kFalse, kTrue}));
+  EXPECT_EQ(verdicts.found, (Found{false, true}));
+  EXPECT_EQ(verdicts.count(kFalse), 2U);
+  EXPECT_EQ(verdicts.misses(), 1U);
 }
 
-TEST(LineVerdicts, NameWhatTheProtocolDrops) {
-  const LineSegments lines = {line(10, 20, 60, 20), line(5, 5, 5, 5)};
-  const LineSegments truth = {line(10, 20, 60, 20)};
-  EXPECT_EQ(
-      judgeLines({LineDistance::kStructural, 5}, Protocol::kEvolin, kSize, lines, truth, false)
-          .predicted,
-      (Verdicts{LineVerdict::kDropped, LineVerdict::kDropped}));
-  EXPECT_EQ(judgeLines({LineDistance::kStructural, 5}, Protocol::kPaper, kSize, lines, truth, false)
-                .predicted,
-            (Verdicts{kHit, LineVerdict::kDropped}));
+TEST(JudgeLines, TheHigherScoreTakesTheLine) {
+  const LineSegments truth = {segment(10, 10, 40, 20)};
+  const LineSegments predicted = {segment(10, 10, 40, 20, 0.3), segment(11, 10, 40, 20, 0.9)};
+  const LineVerdicts verdicts =
+      judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, predicted, truth, true);
+  EXPECT_EQ(verdicts.predicted, (Verdicts{kFalse, kTrue}));
+  EXPECT_EQ(verdicts.found, (Found{true}));
 }
 
-TEST(LineVerdicts, AddUpToTheMetrics) {
-  for (const Protocol protocol : {Protocol::kEvolin, Protocol::kPaper}) {
-    VectorizedOptions options;
-    options.protocol = protocol;
-    for (std::uint64_t seed = 0; seed < 60; ++seed) {
-      RandomLines random(seed);
-      const ImageSize size{320, 240};
-      const LineSegments truth = random.anywhere(random.index(25), 319, 239);
-      LineSegments lines =
-          truth.empty() ? random.anywhere(3, 319, 239) : random.detectionsOf(truth, 40, 12);
-      const bool scored = seed % 2 == 0;
-      for (LineSegment& found : lines) {
-        found.score = scored ? (found.hasScore() ? found.score : 0.5) : kNoScore;
-        found.y2 = random.index(8) == 0 ? found.y1 : found.y2;  // some exactly horizontal
-      }
-      VectorizedMetrics metrics(options);
-      metrics.addFrame(0, "0", size, lines, truth, scored);
-      for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
-        const LineVerdicts verdicts =
-            judgeLines(metrics.settings()[i], protocol, size, lines, truth, scored);
-        const Classification counts = metrics.classification(i);
-        const auto number = [&](LineVerdict verdict) {
-          return std::count(verdicts.predicted.begin(), verdicts.predicted.end(), verdict);
-        };
-        EXPECT_EQ(number(kHit), static_cast<std::ptrdiff_t>(counts.true_positives)) << seed;
-        EXPECT_EQ(number(kHit) + number(kMiss), static_cast<std::ptrdiff_t>(counts.predicted))
-            << seed;
-        EXPECT_EQ(std::count(verdicts.found.begin(), verdicts.found.end(), true), number(kHit));
-        EXPECT_EQ(verdicts.found.size(), truth.size());
-      }
+TEST(JudgeLines, FollowsTheProtocolAtTheThresholdAndOnLevelLines) {
+  const LineSegments truth = {segment(10, 10, 40, 10)};
+  const LineSegments level = {segment(10, 13, 40, 12)};  // at exactly 5
+  EXPECT_EQ(judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, level, truth, false).predicted,
+            Verdicts{kFalse});
+  EXPECT_EQ(judgeLines(kStructuralFive, Protocol::kPaper, kUnit, level, truth, false).predicted,
+            Verdicts{kTrue});
+  EXPECT_EQ(judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, truth, truth, false).predicted,
+            Verdicts{kDropped});
+  EXPECT_EQ(judgeLines(kStructuralFive, Protocol::kPaper, kUnit, truth, truth, false).predicted,
+            Verdicts{kTrue});
+}
+
+TEST(JudgeLines, AgreesWithTheMetricsCounts) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test::RandomLines random(seed);
+    const LineSegments truth = random.anywhere(1 + random.index(60), 640, 480);
+    const LineSegments predicted = random.detectionsOf(truth, random.index(120), 30);
+    const bool scored = seed % 2 == 0;
+    const Protocol protocol = seed % 3 == 0 ? Protocol::kPaper : Protocol::kEvolin;
+    VectorizedMetrics metrics(test::optionsOf(protocol));
+    metrics.addFrame(0, "0000", {640, 480}, predicted, truth, scored);
+    for (std::size_t k = 0; k < metrics.settings().size(); ++k) {
+      const LineVerdicts verdicts =
+          judgeLines(metrics.settings()[k], protocol, {640, 480}, predicted, truth, scored);
+      ASSERT_EQ(verdicts.predicted.size(), predicted.size());
+      test::expectCounts(metrics.classification(k), verdicts.count(kTrue),
+                         verdicts.count(kTrue) + verdicts.count(kFalse), truth.size());
+      EXPECT_EQ(verdicts.misses(), truth.size() - verdicts.count(kTrue));
     }
   }
 }
 
-TEST(LineVerdicts, RefuseWhatTheMetricsRefuse) {
-  const VectorizedSetting setting{LineDistance::kStructural, 5};
-  const auto judge = [&](const LineSegments& lines, const LineSegments& truth, ImageSize size) {
-    judgeLines(setting, Protocol::kEvolin, size, lines, truth, false);
-  };
-  expectError([&] { judge({line(NAN, 0, 1, 1)}, {}, kSize); }, {"predicted line 0", "not finite"});
-  expectError([&] { judge({}, {line(1, 1, 1, 1)}, kSize); }, {"ground-truth line 0", "no length"});
-  expectError([&] { judge({}, {}, {0, 5}); }, {"0 x 5"});
+TEST(JudgeLines, RefusesWhatTheMetricRefuses) {
+  test::expectError<GroundTruthError>(
+      [] {
+        judgeLines(kStructuralFive, Protocol::kEvolin, kUnit, {}, {segment(1, 1, 300, 300)}, false);
+      },
+      {"row 0", "128 x 128"});
+  test::expectError<Error>(
+      [] {
+        judgeLines(kStructuralFive, Protocol::kEvolin, {0, 4}, {}, {}, false);
+      },
+      {"0 x 4"});
+  test::expectError<Error>(
+      [] {
+        judgeLines({LineDistance::kStructural, 0}, Protocol::kEvolin, kUnit, {}, {}, false);
+      },
+      {"threshold 0", "positive"});
 }
 
 }  // namespace
-}  // namespace evolin::test
+}  // namespace evolin

@@ -1,8 +1,8 @@
-// What became of every single line of a frame under one setting of the vectorized metrics: for
-// pictures, where the metrics themselves only count.
+// What became of every single line of a frame under the vectorized detection metrics: for pictures
+// and lists of errors.
 #pragma once
 
-#include <string>
+#include <cstddef>
 #include <vector>
 
 #include "evolin_ros/geometry/image_size.h"
@@ -12,20 +12,20 @@
 
 namespace evolin {
 
-enum class LineVerdict {
-  kTruePositive,
-  kFalsePositive,
-  kDropped,  ///< by the protocol's rule, so it is neither (kEvolin: exactly horizontal or vertical)
-};
+/// kDropped: the protocol does not score the line (see docs/METRICS.md).
+enum class LineVerdict { kTruePositive, kFalsePositive, kDropped };
 
 struct LineVerdicts {
   std::vector<LineVerdict> predicted;  ///< one a predicted line
   std::vector<bool> found;             ///< one a ground-truth line: it has a true positive
+
+  std::size_t count(LineVerdict verdict) const;
+  std::size_t misses() const;
 };
 
-/// By the rules of VectorizedMetrics, whose counts these verdicts add up to. Lines in pixels of an
-/// image of `size`; `scored` says whether all predictions carry scores. Throws Error for a line
-/// that is not finite, for a ground-truth line without length, and for an image without size.
+/// The verdicts behind the counts that VectorizedMetrics gives of this frame under `setting`; takes
+/// and throws the same as its addFrame(), and Error for a threshold that is not positive and
+/// finite.
 LineVerdicts judgeLines(const VectorizedSetting& setting, Protocol protocol, ImageSize size,
                         const LineSegments& predicted, const LineSegments& ground_truth,
                         bool scored);
