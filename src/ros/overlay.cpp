@@ -21,7 +21,8 @@ cv::Mat toBgr(const cv::Mat& image) {
   return colour;
 }
 
-void drawLine(const LineSegment& line, const cv::Scalar& colour, cv::Mat* picture) {
+void drawLine(const LineSegment& line, const cv::Scalar& colour, cv::Mat* picture,
+              const LineStyle& style = {}) {
   // Far outside the picture fixed-point coordinates would overflow.
   constexpr double kFarthest = 1e6;
   const double farthest =
@@ -30,8 +31,15 @@ void drawLine(const LineSegment& line, const cv::Scalar& colour, cv::Mat* pictur
     return;
   }
   const auto fixed = [](double value) { return cvRound(value * (1 << kFractionBits)); };
-  cv::line(*picture, {fixed(line.x1), fixed(line.y1)}, {fixed(line.x2), fixed(line.y2)}, colour, 1,
-           cv::LINE_AA, kFractionBits);
+  const cv::Point from(fixed(line.x1), fixed(line.y1));
+  const cv::Point to(fixed(line.x2), fixed(line.y2));
+  cv::line(*picture, from, to, colour, style.width, cv::LINE_AA, kFractionBits);
+  if (style.endpoints) {
+    const int radius = fixed(2 + style.width);
+    for (const cv::Point& end : {from, to}) {
+      cv::circle(*picture, end, radius, colour, 1, cv::LINE_AA, kFractionBits);
+    }
+  }
 }
 
 /// Neighbouring numbers get hues far apart (steps of the golden angle).
@@ -47,10 +55,10 @@ cv::Scalar colourOf(std::size_t number) {
 
 }  // namespace
 
-cv::Mat drawLines(const cv::Mat& image, const LineSegments& lines) {
+cv::Mat drawLines(const cv::Mat& image, const LineSegments& lines, const LineStyle& style) {
   cv::Mat picture = toBgr(image);
   for (const LineSegment& line : lines) {
-    drawLine(line, {0, 220, 0}, &picture);
+    drawLine(line, {0, 220, 0}, &picture, style);
   }
   return picture;
 }
