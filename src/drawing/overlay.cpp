@@ -25,11 +25,15 @@ cv::Mat colourCopy(const cv::Mat& image) {
 
 }  // namespace
 
-cv::Mat drawLines(const cv::Mat& image, const LineSegments& lines) {
+cv::Mat drawLines(const cv::Mat& image, const LineSegments& lines, const LineStyle& style) {
   cv::Mat picture = colourCopy(image);
   Canvas canvas(picture, 1);
   for (const LineSegment& line : lines) {
-    canvas.drawLine(line, {kGreen});
+    canvas.drawLine(line, {kGreen, static_cast<double>(style.width)});
+    if (style.endpoints) {
+      canvas.drawDot({line.x1, line.y1}, style.width + 1, kGreen);
+      canvas.drawDot({line.x2, line.y2}, style.width + 1, kGreen);
+    }
   }
   return picture;
 }

@@ -38,6 +38,7 @@ constexpr char kCoverage[] = "coverage";
 }  // namespace topics
 
 namespace services {
+constexpr char kReload[] = "reload";
 constexpr char kSaveReport[] = "save_report";
 constexpr char kReset[] = "reset";
 constexpr char kFinish[] = "finish";
@@ -58,6 +59,8 @@ constexpr char kWorldFrame[] = "world";
 
 /// Images are large: enough for a method to catch up, not for a whole sequence.
 constexpr int kImageQueue = 30;
+/// Where we queue ourselves, and count what we drop.
+constexpr int kUnlimitedQueue = 0;
 /// Lines, matches and metrics are small; a burst must not lose any.
 constexpr int kResultQueue = 1000;
 

@@ -137,7 +137,7 @@ TEST_F(OnlineDetector, NamesWhatItRefuses) {
                 {"unknown detector 'opencv_lsdd'", "did you mean 'opencv_lsd'", "hough_p"});
   expectRefusal("misspelt", "queue_sise", 30, {"'queue_sise'", "queue_size"});
   expectRefusal("ill_typed", "queue_size", "many", {"'queue_size'", "many"});
-  expectRefusal("out_of_range", "queue_size", 0, {"'queue_size'", "0", "1"});
+  expectRefusal("out_of_range", "queue_size", -1, {"'queue_size'", "-1", "0"});
   expectRefusal("unavailable", "detector", "test_unavailable",
                 {"detector test_unavailable", "what no build has", "available", "hough_p"});
   ros::param::set(space() + "/plugin/detector", "hough_p");

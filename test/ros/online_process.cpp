@@ -29,37 +29,37 @@ std::vector<std::string> managerCommand(const std::string& space, int threads) {
   return {"rosrun", "nodelet", "nodelet", "manager", "__name:=manager", "__ns:=" + space};
 }
 
-/// Whether `node` sends to somebody on `topic`, as the node itself says.
-bool isConnected(const std::string& node, const std::string& topic) {
+}  // namespace
+
+std::size_t listenersOf(const std::string& node, const std::string& topic) {
   XmlRpc::XmlRpcValue request;
   request[0] = ros::this_node::getName();
   request[1] = node;
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue uri;
   if (!ros::master::execute("lookupNode", request, response, uri, false)) {
-    return false;
+    return 0;
   }
   std::string host;
   std::uint32_t port = 0;
   if (!ros::network::splitURI(static_cast<std::string>(uri), host, port)) {
-    return false;
+    return 0;
   }
   XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
   XmlRpc::XmlRpcValue caller;
   caller[0] = ros::this_node::getName();
   if (!client.execute("getBusInfo", caller, response) || response.size() < 3) {
-    return false;
+    return 0;
   }
+  std::size_t count = 0;
   for (int i = 0; i < response[2].size(); ++i) {
     XmlRpc::XmlRpcValue& link = response[2][i];
     if (static_cast<std::string>(link[2]) == "o" && static_cast<std::string>(link[4]) == topic) {
-      return true;
+      ++count;
     }
   }
-  return false;
+  return count;
 }
-
-}  // namespace
 
 Process::Process(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
@@ -119,7 +119,7 @@ Manager::Manager(const std::string& space, int threads)
     : space_(space), process_(managerCommand(space, threads)) {
   const std::string name = space + "/manager";
   const auto ready = [&] {
-    return ros::service::exists(name + "/load_nodelet", false) && isConnected(name, "/rosout");
+    return ros::service::exists(name + "/load_nodelet", false) && listenersOf(name, "/rosout") > 0;
   };
   const ::testing::AssertionResult result = waitFor("nodelet manager " + name, ready);
   if (!result) {
@@ -150,7 +150,7 @@ bool Manager::unload(const std::string& name) {
 
 ::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic) {
   return waitFor("a listener to " + topic + " of " + node,
-                 [&] { return isConnected(node, topic); });
+                 [&] { return listenersOf(node, topic) > 0; });
 }
 
 ::testing::AssertionResult Manager::waitForListener(const std::string& topic) const {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/types.h>
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,6 +33,9 @@ class Process {
   pid_t pid_ = -1;
   std::optional<int> status_;
 };
+
+/// To how many nodes `node` sends on `topic`, as the node itself says; 0 when it does not answer.
+std::size_t listenersOf(const std::string& node, const std::string& topic);
 
 /// Waits until what `node` publishes on `topic` reaches somebody; both are whole names.
 ::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic);
