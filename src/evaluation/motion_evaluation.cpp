@@ -197,6 +197,8 @@ void MotionEvaluation::limitNodes(MotionUpdate* update) {
   unresolved_.erase(stamp);
   gone_ = std::max(stamp, gone_.value_or(stamp));
   nodes_.erase(oldest);
+  // One that is older than all that are kept is not taken any more.
+  trajectory_.forgetBefore(nodes_.begin()->first);
 }
 
 void MotionEvaluation::resolveAll(bool complete, MotionUpdate* update) {

@@ -109,10 +109,12 @@ EvaluationUpdate PassEvaluation::takeLines(LineSet lines) {
   entry.record.lines = lines.lines.size();
   noteLines(stamp);
   settleImages(&update);
-  entry.line_count = lines.lines.size();
   if (wants(MetricFamily::kTracks)) {
     std::size_t repeated = 0;
-    entry.track_ids = trackIdsOf(lines.lines, &repeated);
+    TrackedLines& tracked = unfollowed_[stamp];
+    tracked.stamp = stamp;
+    tracked.count = lines.lines.size();
+    tracked.track_ids = trackIdsOf(lines.lines, &repeated);
     if (repeated > 0) {
       note("lines of frame " + formatStamp(stamp) + ": " + std::to_string(repeated) +
                " repeat an id of the same frame; the first line of an id alone is followed",
@@ -133,6 +135,7 @@ EvaluationUpdate PassEvaluation::takeLines(LineSet lines) {
   entry.lines = std::move(lines);
   hold(stamp);
   evaluateFrame(&entry, &update);
+  followTracks();
   return update;
 }
 
@@ -284,6 +287,7 @@ void PassEvaluation::hold(Stamp stamp) {
   oldest.lines.reset();
   oldest.ground_truth.reset();
   oldest.released = true;
+  letGo(&oldest);
   held_.erase(held_.begin());
 }
 

@@ -55,14 +55,6 @@ std::string PassEvaluation::whyUnusable(const MatchSet& matches) const {
                      ", or of the ground truth, " + quote(ground_truth_source_);
 }
 
-/// Matches come after the lines that they are between; of ones that overtake them no track is made.
-void PassEvaluation::keepForTracks(const MatchSet& matches) {
-  const auto second = entries_.find(matches.stamp);
-  if (second != entries_.end() && matches.lines_source != ground_truth_source_) {
-    second->second.earlier_matches = matches;
-  }
-}
-
 void PassEvaluation::evaluatePairsOf(Stamp stamp, EvaluationUpdate* update) {
   for (auto pair = pending_pairs_.begin(); pair != pending_pairs_.end();) {
     const bool concerned = pair->first.first == stamp || pair->first.second == stamp;
@@ -122,6 +114,14 @@ bool PassEvaluation::evaluateDetectedPair(const MatchSet& matches, EvaluationUpd
       first->second.record.state != FrameState::kEvaluated ||
       second->second.record.state != FrameState::kEvaluated) {
     return false;
+  }
+  if (first->second.released || second->second.released) {
+    ++detected_pair_counts_.skipped;
+    note("matches of " + formatStamp(matches.first_stamp) + " and " + formatStamp(matches.stamp) +
+             ": they came when a frame had left the buffer of " + std::to_string(options_.buffer) +
+             " frames; raise buffer",
+         update);
+    return true;
   }
   const std::vector<std::int64_t>& first_ids = first->second.carried_ids;
   const std::vector<std::int64_t>& second_ids = second->second.carried_ids;

@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "evolin_ros/evaluation/pass_evaluation.h"
-#include "evolin_ros/metrics/association.h"
-#include "evolin_ros/metrics/track_length.h"
 
 namespace evolin {
 
@@ -34,6 +32,16 @@ CoverageCounts PassEvaluation::coverage() const {
   counts.no_pose = motion_.counts().no_pose;
   counts.bad_lines = motion_.counts().bad_lines;
   return counts;
+}
+
+PassSums PassEvaluation::sums() const {
+  return {evaluator_,
+          motion_.repeatability(),
+          motion_.oneToOne(),
+          motion_.bestLocalization(),
+          wants(MetricFamily::kTracks) ? tracks() : TrackReport(),
+          coverage(),
+          poseStep()};
 }
 
 bool PassEvaluation::waiting() const {
@@ -204,57 +212,6 @@ void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* r
   report->coverage.pose_skipped = coverage_.pose_skipped;
   report->coverage.depth_left_out = coverage_.depth_left_out;
   report->coverage.poses_left_out = coverage_.poses_left_out;
-}
-
-TrackReport PassEvaluation::tracks() const {
-  TrackReport report;
-  bool ids = false;
-  bool matches = false;
-  for (const auto& [stamp, entry] : entries_) {
-    ids = ids || !entry.track_ids.empty();
-    matches = matches || entry.earlier_matches.has_value();
-  }
-  if (!ids && !matches) {
-    report.reason = "not evaluated: the detected lines carry no track ids and are not matched";
-    return report;
-  }
-  report.from_matches = !ids;
-  TrackMetrics metrics;
-  TrackBuilder builder;
-  std::optional<Stamp> previous;
-  std::size_t previous_count = 0;
-  for (const auto& [stamp, entry] : entries_) {
-    if (!entry.record.lines) {
-      continue;
-    }
-    std::vector<std::int64_t> track_ids = entry.track_ids;
-    if (!ids) {
-      IndexPairs pairs;
-      if (entry.earlier_matches && entry.earlier_matches->first_stamp == previous) {
-        for (const IndexPair& pair : toIndexPairs(entry.earlier_matches->matches)) {
-          if (pair.first < static_cast<std::int64_t>(previous_count) &&
-              pair.second < static_cast<std::int64_t>(entry.line_count)) {
-            pairs.push_back(pair);
-          }
-        }
-      }
-      track_ids = builder.addFrame(entry.line_count, pairs);
-    } else if (track_ids.empty()) {
-      track_ids.assign(entry.line_count, kNoId);
-    }
-    metrics.addFrame(track_ids, entry.carried_ids);
-    previous = stamp;
-    previous_count = entry.line_count;
-  }
-  report.frames = metrics.frames();
-  report.tracks = metrics.tracks();
-  report.mean_length = metrics.meanLength();
-  report.median_length = metrics.medianLength();
-  report.longest = metrics.longest();
-  report.observations = metrics.observations();
-  report.identity_switches = metrics.identitySwitches();
-  report.drifts = metrics.drifts();
-  return report;
 }
 
 }  // namespace evolin

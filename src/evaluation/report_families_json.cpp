@@ -206,6 +206,7 @@ Json poseJson(const Report& report) {
 Json tracksJson(const Report& report) {
   const TrackReport& tracks = report.tracks;
   Json object = {{"frames", tracks.frames},
+                 {"late", tracks.late},
                  {"from", tracks.from_matches ? "matches" : "ids"},
                  {"tracks", tracks.tracks},
                  {"mean_length", optionalOrNull(tracks.mean_length)},

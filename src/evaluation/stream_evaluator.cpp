@@ -14,6 +14,9 @@ namespace {
 /// Results that a front-end of several threads may give out before the first one.
 constexpr std::size_t kMostSwapped = 8;
 
+/// Stamps of an input that are known again when they come a second time.
+constexpr std::size_t kLeastRemembered = 1000;
+
 std::string secondsText(Stamp stamp) { return formatStamp(stamp) + " s"; }
 
 /// Which publishers an input has is not known here, but two methods on one topic give themselves
@@ -47,6 +50,10 @@ std::optional<int> StreamEvaluator::passOf(Input input, Key key) {
   }
   follower.last = key;
   follower.received.insert(key);
+  // What is before all of so many is a jump, whether it was there or not.
+  if (follower.received.size() > std::max(options_.buffer, kLeastRemembered)) {
+    follower.received.erase(follower.received.begin());
+  }
   return follower.pass;
 }
 
@@ -84,14 +91,14 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& 
     newest_ = *pass;
     noted_.clear();
     update->new_pass = true;
+    previous_changed_ = true;
     const auto opened = passes_.emplace(newest_, PassEvaluation(options_)).first;
     if (camera_) {
       update->append(marked(opened->second.setCamera(*camera_), newest_));
     }
     while (passes_.begin()->first < newest_ - 1) {
       passes_.begin()->second.skipPending();
-      released_ = passes_.begin()->second.report(true);
-      released_->pass = passes_.begin()->first;
+      released_.emplace(passes_.begin()->first, std::move(passes_.begin()->second));
       passes_.erase(passes_.begin());
     }
   }
@@ -154,6 +161,7 @@ EvaluationUpdate StreamEvaluator::add(Input input, Key key, const std::string& s
   EvaluationUpdate update;
   if (PassEvaluation* pass = enter(input, key, source, &update)) {
     update.append(marked(add(pass), followers_[input].pass));
+    previous_changed_ = previous_changed_ || followers_[input].pass != newest_;
   }
   return update;
 }
@@ -202,12 +210,17 @@ PassEvaluation* StreamEvaluator::passOf(std::uint64_t generation, int pass) {
 
 EvaluationUpdate StreamEvaluator::addResult(const EvaluationResult& result) {
   PassEvaluation* pass = passOf(result.generation, result.pass);
-  return pass == nullptr ? EvaluationUpdate() : pass->addResult(result);
+  if (pass == nullptr) {
+    return {};
+  }
+  previous_changed_ = previous_changed_ || result.pass != newest_;
+  return pass->addResult(result);
 }
 
 void StreamEvaluator::skip(const EvaluationTask& task) {
   if (PassEvaluation* pass = passOf(task.generation, task.pass)) {
     pass->skip(task);
+    previous_changed_ = previous_changed_ || task.pass != newest_;
   }
 }
 
@@ -217,18 +230,32 @@ Report StreamEvaluator::report(bool complete) const {
   return report;
 }
 
-std::optional<Report> StreamEvaluator::previousReport() const {
+const PassEvaluation* StreamEvaluator::previous() const {
   const auto found = passes_.find(newest_ - 1);
-  if (found == passes_.end()) {
+  return found == passes_.end() ? nullptr : &found->second;
+}
+
+std::optional<Report> StreamEvaluator::previousReport() const {
+  if (previous() == nullptr) {
     return std::nullopt;
   }
-  Report report = found->second.report(true);
+  Report report = previous()->report(true);
   report.pass = newest_ - 1;
   return report;
 }
 
-std::optional<Report> StreamEvaluator::takeReleasedReport() {
+std::optional<std::pair<int, PassEvaluation>> StreamEvaluator::takeReleased() {
   return std::exchange(released_, std::nullopt);
+}
+
+std::optional<Report> StreamEvaluator::takeReleasedReport() {
+  const std::optional<std::pair<int, PassEvaluation>> released = takeReleased();
+  if (!released) {
+    return std::nullopt;
+  }
+  Report report = released->second.report(true);
+  report.pass = released->first;
+  return report;
 }
 
 bool StreamEvaluator::hasPendingTasks() const {

@@ -128,14 +128,14 @@ evolin_ros::RepeatabilityMetrics repeatabilityMessage(
 }
 
 evolin_ros::RepeatabilityMetrics repeatabilityMessage(const MetricHead& head,
-                                                      const MotionEvaluation& motion) {
+                                                      const RepeatabilityMetrics& metrics,
+                                                      const OneToOneRepeatability& one_to_one,
+                                                      const BestLocalization& best_localization) {
   auto message = begunWithFrames<evolin_ros::RepeatabilityMetrics>(head);
-  const OneToOneRepeatability& one_to_one = motion.oneToOne();
   const bool visible = one_to_one.visible() > 0;
   message.one_to_one_by_count = visible ? one_to_one.byCount() : kNotDefined;
   message.one_to_one_by_length = visible ? one_to_one.byLength() : kNotDefined;
-  message.best_localization_error = motion.bestLocalization().error().value_or(kNotDefined);
-  const RepeatabilityMetrics& metrics = motion.repeatability();
+  message.best_localization_error = best_localization.error().value_or(kNotDefined);
   for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
     evolin_ros::RepeatabilityEntry entry = entryOf(metrics.settings()[i]);
     if (const std::optional<RepeatabilityFigures> figures = metrics.figures(i)) {

@@ -44,7 +44,9 @@ evolin_ros::RepeatabilityMetrics repeatabilityMessage(
     const std::vector<RepeatabilitySetting>& settings, bool first_step);
 /// Of all pairs.
 evolin_ros::RepeatabilityMetrics repeatabilityMessage(const MetricHead& head,
-                                                      const MotionEvaluation& motion);
+                                                      const RepeatabilityMetrics& metrics,
+                                                      const OneToOneRepeatability& one_to_one,
+                                                      const BestLocalization& best_localization);
 
 /// Of all pairs, or of one when the errors hold one.
 evolin_ros::PoseMetrics poseMessage(const MetricHead& head, const PoseErrorMetrics& errors,

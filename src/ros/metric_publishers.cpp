@@ -96,10 +96,8 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
   }
 }
 
-void MetricPublishers::publishSums(const StreamEvaluator& evaluator,
-                                   const std_msgs::Header& header) const {
-  const PassEvaluation& pass = evaluator.current();
-  const SequenceEvaluator& sums = pass.evaluator();
+void MetricPublishers::publishSums(const PassSums& pass, const std_msgs::Header& header) const {
+  const SequenceEvaluator& sums = pass.evaluator;
   const auto headFor = [&](std::size_t frames) {
     return MetricHead{header, true, frames, options_.evaluation.vectorized.protocol};
   };
@@ -114,9 +112,10 @@ void MetricPublishers::publishSums(const StreamEvaluator& evaluator,
   if (wants(MetricFamily::kRepeatability)) {
     std::size_t pairs = 0;
     for (const int step : options_.motion.repeatabilities.frame_steps) {
-      pairs += pass.motion().repeatability().pairs(step);
+      pairs += pass.repeatability.pairs(step);
     }
-    repeatability_cumulative_.publish(repeatabilityMessage(headFor(pairs), pass.motion()));
+    repeatability_cumulative_.publish(repeatabilityMessage(
+        headFor(pairs), pass.repeatability, pass.one_to_one, pass.best_localization));
   }
   if (wants(MetricFamily::kAssociation)) {
     association_cumulative_.publish(associationMessage(headFor(sums.association().pairs()),
@@ -127,12 +126,12 @@ void MetricPublishers::publishSums(const StreamEvaluator& evaluator,
   if (wants(MetricFamily::kPose)) {
     pose_cumulative_.publish(poseMessage(headFor(sums.pose().pairs()), sums.pose(),
                                          toString(options_.motion.pose_method.strategy),
-                                         pass.poseStep(), options_.auc_thresholds));
+                                         pass.pose_step, options_.auc_thresholds));
   }
   if (wants(MetricFamily::kTracks)) {
-    tracks_cumulative_.publish(trackMessage(headFor(0), pass.tracks()));
+    tracks_cumulative_.publish(trackMessage(headFor(0), pass.tracks));
   }
-  coverage_.publish(coverageMessage(header, evaluator.coverage()));
+  coverage_.publish(coverageMessage(header, pass.coverage));
 }
 
 }  // namespace evolin::ros_shell

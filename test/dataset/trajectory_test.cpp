@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <string>
 
 #include "test/support/expect_error.h"
@@ -66,6 +68,24 @@ TEST(Trajectory, TakesTheNearerOfTwoPosesOfTheSameTime) {
 
 TEST(Trajectory, RefusesStampsThatDoNotIncrease) {
   expectError([] { Trajectory({poseAt(5, 0), poseAt(5, 1)}); }, {"0.000000005", "increasing"});
+}
+
+TEST(Trajectory, ForgetsOnlyWhatNoLaterLookUpNeeds) {
+  Trajectory trajectory;
+  Trajectory whole;
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(trajectory.add(poseAt(i * 10 * kMillisecond, i)));
+    ASSERT_TRUE(whole.add(poseAt(i * 10 * kMillisecond, i)));
+    const Stamp oldest = std::max<Stamp>(0, (i - 20) * 10 * kMillisecond);
+    trajectory.forgetBefore(oldest);
+    // Those of the gap before and of the 20 after it, twice.
+    ASSERT_LE(trajectory.poses().size(), 64U) << i;
+    for (Stamp stamp = oldest; stamp <= i * 10 * kMillisecond; stamp += 3 * kMillisecond) {
+      ASSERT_EQ(trajectory.at(stamp)->translation.x(), whole.at(stamp)->translation.x());
+    }
+  }
+  trajectory.forgetBefore(1000 * kNanosecondsPerSecond);
+  EXPECT_EQ(trajectory.poses().size(), 1U);
 }
 
 TEST(ReadTrajectory, SkipsCommentsAndNormalisesQuaternions) {

@@ -425,6 +425,52 @@ TEST(PassEvaluation, TracksNeedNoGroundTruth) {
   EXPECT_EQ(report.detected_pairs.no_ground_truth, 2U);
 }
 
+/// Line 0 is the same physical line throughout but changes its id every 40 frames.
+void addTracked(Stamp first, Stamp last, PassEvaluation* pass) {
+  for (Stamp stamp = first; stamp <= last; ++stamp) {
+    LineSet lines = handLines(stamp);
+    lines.lines[0].id = stamp / 40;
+    lines.lines[1].id = 1000;
+    lines.lines[2].id = kNoId;
+    pass->addGroundTruth(handTruth(stamp));
+    pass->addLines(lines);
+  }
+}
+
+TEST(PassEvaluation, TracksOfALongPassOutliveTheBuffer) {
+  for (const std::size_t buffer : {std::size_t{2}, std::size_t{50}, std::size_t{1000}}) {
+    PassEvaluation pass(withBuffer(buffer));
+    addTracked(1, 199, &pass);
+    const TrackReport tracks = pass.report(true).tracks;
+    EXPECT_FALSE(tracks.from_matches) << "buffer " << buffer;
+    EXPECT_EQ(tracks.frames, 199U) << "buffer " << buffer;
+    EXPECT_EQ(tracks.tracks, 6U) << "buffer " << buffer;
+    EXPECT_EQ(tracks.longest, 199U) << "buffer " << buffer;
+    // The second line is beyond the gate of every annotated one.
+    EXPECT_EQ(tracks.observations, 199U) << "buffer " << buffer;
+    EXPECT_EQ(tracks.identity_switches, 4U) << "buffer " << buffer;
+  }
+}
+
+TEST(PassEvaluation, TracksCountAFrameThatComesAfterManyLaterOnes) {
+  PassEvaluation pass;
+  addTracked(2, 100, &pass);
+  addTracked(1, 1, &pass);
+  const TrackReport tracks = pass.report(true).tracks;
+  EXPECT_EQ(tracks.frames, 99U);
+  EXPECT_EQ(tracks.late, 1U);
+}
+
+TEST(PassEvaluation, MatchesOfFramesThatLeftTheBufferAreSkipped) {
+  PassEvaluation pass(withBuffer(2));
+  addTracked(1, 100, &pass);
+  pass.addMatches(matchSet(1, 2, "detector", {{0, 0}}));
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.detected_pairs.skipped, 1U);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes.back().find("raise buffer"), std::string::npos) << report.notes.back();
+}
+
 TEST(PassEvaluation, IsNotCompleteWhileTasksAreUnderWay) {
   PassEvaluation pass;
   pass.addGroundTruth(handTruth(1));

@@ -115,6 +115,23 @@ TEST(StreamEvaluator, APassThatLeavesMemoryIsGivenOutOnce) {
   EXPECT_FALSE(stream.takeReleasedReport().has_value());
 }
 
+TEST(StreamEvaluator, TellsOnceWhenThePassBeforeChanges) {
+  StreamEvaluator stream;
+  for (const Stamp stamp : {1, 2, 3}) stream.addLines(handLines(stamp * kSecond));
+  for (const Stamp stamp : {1, 2}) stream.addGroundTruth(handTruth(stamp * kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged());
+  EXPECT_EQ(stream.previous(), nullptr);
+  stream.addLines(handLines(1 * kSecond));
+  ASSERT_NE(stream.previous(), nullptr);
+  EXPECT_TRUE(stream.takePreviousChanged());
+  EXPECT_FALSE(stream.takePreviousChanged());
+  stream.addLines(handLines(2 * kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged());
+  // Another input is still in the pass before.
+  stream.addGroundTruth(handTruth(3 * kSecond));
+  EXPECT_TRUE(stream.takePreviousChanged());
+}
+
 TEST(StreamEvaluator, ADuplicateChangesNoFigureAndIsCounted) {
   const std::vector<Part> parts = randomPass(5, 10);
   StreamEvaluator stream;

@@ -15,6 +15,7 @@
 #include "evolin_ros/evaluation/motion_evaluation.h"
 #include "evolin_ros/evaluation/report.h"
 #include "evolin_ros/evaluation/sequence_evaluator.h"
+#include "evolin_ros/evaluation/track_follower.h"
 
 namespace evolin {
 
@@ -48,6 +49,17 @@ struct EvaluationUpdate {
   bool new_pass = false;
 
   void append(EvaluationUpdate other);
+};
+
+/// Figures of a pass so far without its records: a copy that may be looked at where nobody waits.
+struct PassSums {
+  SequenceEvaluator evaluator;
+  RepeatabilityMetrics repeatability;
+  OneToOneRepeatability one_to_one;
+  BestLocalization best_localization;
+  TrackReport tracks;
+  CoverageCounts coverage;
+  int pose_step = 0;  ///< PassEvaluation::poseStep()
 };
 
 /// Parts may come in any order and any time apart, each at most once. Not safe for several threads
@@ -107,8 +119,9 @@ class PassEvaluation {
   /// Images from the first to the second frame of every pose estimate so far; 0: it differs.
   int poseStep() const { return pose_steps_.size() == 1 ? *pose_steps_.begin() : 0; }
 
-  /// Follows all lines from the beginning: time grows with what was received.
   TrackReport tracks() const;
+
+  PassSums sums() const;
 
   const SequenceEvaluator& evaluator() const { return evaluator_; }
 
@@ -119,11 +132,10 @@ class PassEvaluation {
     std::optional<LineSet> lines;         ///< until evaluated or released
     std::optional<LineSet> ground_truth;  ///< until released
     bool released = false;
-    std::size_t line_count = 0;               ///< detected
-    std::vector<std::int64_t> track_ids;      ///< of the detected lines; empty: none has one
-    bool true_ids = false;                    ///< its ground truth has ids, or has no lines
-    std::vector<std::int64_t> carried_ids;    ///< of ground truth, for the detected lines
-    std::optional<MatchSet> earlier_matches;  ///< of detected lines, with an earlier frame
+    bool true_ids = false;                  ///< its ground truth has ids, or has no lines
+    std::vector<std::int64_t> carried_ids;  ///< of ground truth, for the detected lines; until
+                                            ///< released and followed
+    bool followed = false;                  ///< its tracks are
     FrameRecord record;
   };
   using PairKey = std::pair<Stamp, Stamp>;
@@ -150,6 +162,9 @@ class PassEvaluation {
   bool evaluateDetectedPair(const MatchSet& matches, EvaluationUpdate* update);
   std::string whyUnusable(const MatchSet& matches) const;
   void keepForTracks(const MatchSet& matches);
+  void followTracks();
+  static void follow(TrackedLines lines, const Entry& entry, TrackFollower* follower);
+  void letGo(Entry* entry);
   void scoreFrame(Entry* entry, EvaluationUpdate* update);
   void take(MotionUpdate motion, EvaluationUpdate* update);
   bool wants(MetricFamily family) const { return options_.families.count(family) != 0; }
@@ -180,6 +195,8 @@ class PassEvaluation {
   std::vector<PairRecord> pair_records_;
   std::vector<DetectedPairRecord> detected_pair_records_;
   DetectedPairCounts detected_pair_counts_;
+  TrackFollower follower_;
+  std::map<Stamp, TrackedLines> unfollowed_;  ///< frames with lines that are not final yet
   MotionEvaluation motion_;
   std::vector<RepeatabilityRecord> repeatability_records_;
   std::vector<PoseRecord> pose_records_;

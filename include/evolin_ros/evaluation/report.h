@@ -12,6 +12,7 @@
 #include "evolin_ros/evaluation/metric_family.h"
 #include "evolin_ros/evaluation/motion_evaluation.h"
 #include "evolin_ros/evaluation/task.h"
+#include "evolin_ros/evaluation/track_follower.h"
 #include "evolin_ros/metrics/classification.h"
 #include "evolin_ros/metrics/detected_association.h"
 #include "evolin_ros/metrics/pose_error.h"
@@ -162,20 +163,6 @@ struct PoseReport {
   PoseErrorMetrics errors;
   std::size_t pending = 0;  ///< still being estimated
   std::vector<PoseRecord> records;
-};
-
-/// How long lines are followed; see TrackMetrics.
-struct TrackReport {
-  std::string reason;  ///< why there are none; "" when there are
-  bool from_matches = false;
-  std::size_t frames = 0;
-  std::uint64_t tracks = 0;
-  std::optional<double> mean_length;
-  std::optional<double> median_length;
-  std::uint32_t longest = 0;
-  std::uint64_t observations = 0;
-  std::uint64_t identity_switches = 0;
-  std::uint64_t drifts = 0;
 };
 
 struct Report {

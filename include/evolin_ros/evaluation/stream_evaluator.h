@@ -53,6 +53,14 @@ class StreamEvaluator {
   /// successor had begun; given once.
   std::optional<Report> takeReleasedReport();
 
+  /// The same as they are, to be reported on where nobody waits; null and none as above.
+  const PassEvaluation* previous() const;
+  std::optional<std::pair<int, PassEvaluation>> takeReleased();
+
+  /// Whether the pass before the newest has begun to be that, or has got a part, since this was
+  /// asked last.
+  bool takePreviousChanged() { return std::exchange(previous_changed_, false); }
+
   /// Of the newest pass, cheap at any number of frames.
   CoverageCounts coverage() const { return current().coverage(); }
 
@@ -96,7 +104,8 @@ class StreamEvaluator {
   std::set<std::pair<Input, Fault>> told_;
   std::set<std::pair<Input, Fault>> noted_;  ///< in the newest pass's report
   std::map<int, PassEvaluation> passes_;
-  std::optional<Report> released_;
+  std::optional<std::pair<int, PassEvaluation>> released_;
+  bool previous_changed_ = false;
   int newest_ = 1;
   std::optional<Camera> camera_;
   std::uint64_t generation_ = 0;
