@@ -29,12 +29,27 @@ void requireSize(const std::string& frame, ImageSize lines, ImageSize depth) {
   }
 }
 
+std::optional<RepeatabilityMetrics> byScore(const MotionOptions& options) {
+  if (options.repeatability_score_thresholds.empty()) {
+    return std::nullopt;
+  }
+  RepeatabilityOptions repeatabilities = options.repeatabilities;
+  repeatabilities.score_thresholds = options.repeatability_score_thresholds;
+  return RepeatabilityMetrics(repeatabilities);
+}
+
+bool isScored(const SpatialFrame& frame) {
+  return std::all_of(frame.lines.begin(), frame.lines.end(),
+                     [](const SpatialLine& line) { return line.segment.hasScore(); });
+}
+
 }  // namespace
 
 MotionEvaluation::MotionEvaluation(MotionOptions options)
     : options_(std::move(options)),
       method_(options_.pose_method),
       repeatability_(options_.repeatabilities),
+      by_score_(byScore(options_)),
       one_to_one_(options_.one_to_one),
       best_localization_(options_.best_localization),
       depth_(options_.max_time_difference, options_.depth_buffer) {}
@@ -340,6 +355,11 @@ void MotionEvaluation::scorePairs(Stamp stamp, const std::shared_ptr<const Spati
     } catch (const Error& error) {
       update->notes.emplace_back(error.what());
       continue;
+    }
+    if (by_score_ && isScored(*first->frame) && isScored(*frame)) {
+      record.by_score = by_score_->addPair(step, *first->frame, *frame);
+    } else if (by_score_) {
+      ++counts_.unscored_pairs;
     }
     // The relatives are of one step, or their pairs would count several times.
     if (step == steps.front()) {

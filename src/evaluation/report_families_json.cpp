@@ -106,6 +106,9 @@ Json repeatabilityJson(const Report& report) {
                   {"pairs", row.pairs},
                   {"repeatability", nullptr},
                   {"localization_error", nullptr}};
+    if (row.setting.score_threshold) {
+      entry["score_threshold"] = *row.setting.score_threshold;
+    }
     if (row.figures) {
       entry["repeatability"] = row.figures->repeatability;
       entry["localization_error"] = row.figures->localization_error;
@@ -136,6 +139,7 @@ Json repeatabilityJson(const Report& report) {
           {"no_pose", repeatability.counts.no_pose},
           {"bad_lines", repeatability.counts.bad_lines},
           {"late", repeatability.counts.late},
+          {"unscored_pairs", repeatability.counts.unscored_pairs},
           {"entries", std::move(entries)},
           {"one_to_one", std::move(one)},
           {"best_localization", std::move(localization)}};

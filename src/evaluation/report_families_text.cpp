@@ -85,12 +85,16 @@ std::string repeatabilitySection(const Report& report) {
       "| step | distance | repeatability | localisation error | pairs |\n"
       "| ---: | --- | ---: | ---: | ---: |\n";
   for (const RepeatabilityRow& row : repeatability.rows) {
-    text += "| " + std::to_string(row.setting.frame_step) + " | " + toString(row.setting.distance) +
-            " " + formatDouble(row.setting.distance_threshold) + " | " +
-            (row.figures ? percentText(row.figures->repeatability) + " | " +
-                               fixedText(row.figures->localization_error, 2)
-                         : whyNoRepeatability(report, row) + " | -") +
-            " | " + std::to_string(row.pairs) + " |\n";
+    text +=
+        "| " + std::to_string(row.setting.frame_step) + " | " + toString(row.setting.distance) +
+        " " + formatDouble(row.setting.distance_threshold) +
+        (row.setting.score_threshold ? ", score above " + formatDouble(*row.setting.score_threshold)
+                                     : "") +
+        " | " +
+        (row.figures ? percentText(row.figures->repeatability) + " | " +
+                           fixedText(row.figures->localization_error, 2)
+                     : whyNoRepeatability(report, row) + " | -") +
+        " | " + std::to_string(row.pairs) + " |\n";
   }
   const OneToOneRepeatability& one_to_one = repeatability.one_to_one;
   if (one_to_one.visible() > 0) {
@@ -170,20 +174,26 @@ std::string tracksSection(const Report& report) {
 
 std::string repeatabilityToCsv(const Report& report) {
   std::string text =
-      "first_stamp,stamp,step,distance,threshold,lines,found_forward,found_backward,repeatability,"
+      "first_stamp,stamp,step,distance,threshold,score_threshold,lines,found_forward,found_"
+      "backward,repeatability,"
       "localization_error,one_to_one_by_count,one_to_one_by_length,best_localization_error\n";
   for (const RepeatabilityRecord& record : report.repeatability.records) {
-    std::size_t index = 0;
+    std::size_t of_all = 0;
+    std::size_t by_score = 0;
     for (const RepeatabilityRow& row : report.repeatability.rows) {
-      if (row.setting.frame_step != record.frame_step || index >= record.pair.size()) {
+      const std::optional<double>& score = row.setting.score_threshold;
+      const std::vector<PairRepeatability>& pairs = score ? record.by_score : record.pair;
+      std::size_t& index = score ? by_score : of_all;
+      if (row.setting.frame_step != record.frame_step || index >= pairs.size()) {
         continue;
       }
-      const PairRepeatability& pair = record.pair[index++];
+      const PairRepeatability& pair = pairs[index++];
       text += formatStamp(record.first_stamp) + "," + formatStamp(record.stamp) + "," +
               std::to_string(record.frame_step) + "," + toString(row.setting.distance) + "," +
-              formatDouble(row.setting.distance_threshold) + "," + std::to_string(pair.lines) +
-              "," + std::to_string(pair.forward.count) + "," + std::to_string(pair.backward.count) +
-              "," + formatDouble(pair.repeatability()) + "," +
+              formatDouble(row.setting.distance_threshold) + "," +
+              (score ? formatDouble(*score) : "") + "," + std::to_string(pair.lines) + "," +
+              std::to_string(pair.forward.count) + "," + std::to_string(pair.backward.count) + "," +
+              formatDouble(pair.repeatability()) + "," +
               formatDouble(pair.localizationError(report.protocol)) + ",";
       // Those beyond the article are of the first step alone.
       const bool first_step =

@@ -21,6 +21,9 @@ void advertise(ros::NodeHandle& handle, const char* frame, const char* cumulativ
 MetricPublishers::MetricPublishers(ros::NodeHandle& handle, const PassOptions& options)
     : options_(options),
       repeatability_settings_(RepeatabilityMetrics(options.motion.repeatabilities).settings()) {
+  if (const MotionEvaluation motion(options.motion); motion.repeatabilityByScore()) {
+    repeatability_settings_by_score_ = motion.repeatabilityByScore()->settings();
+  }
   if (wants(MetricFamily::kDetection)) {
     advertise<evolin_ros::DetectionMetrics>(handle, topics::kDetectionFrame,
                                             topics::kDetectionCumulative, &detection_frame_,
@@ -77,7 +80,8 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
   for (const RepeatabilityRecord& pair : update.repeatability) {
     const bool first_step = pair.frame_step == options_.motion.repeatabilities.frame_steps.front();
     repeatability_frame_.publish(
-        repeatabilityMessage(headOf(pair.stamp), pair, repeatability_settings_, first_step));
+        repeatabilityMessage(headOf(pair.stamp), pair, repeatability_settings_,
+                             repeatability_settings_by_score_, first_step));
   }
   if (wants(MetricFamily::kAssociation)) {
     for (const PairRecord& pair : update.pairs) {
@@ -114,8 +118,7 @@ void MetricPublishers::publishSums(const PassSums& pass, const std_msgs::Header&
     for (const int step : options_.motion.repeatabilities.frame_steps) {
       pairs += pass.repeatability.pairs(step);
     }
-    repeatability_cumulative_.publish(repeatabilityMessage(
-        headFor(pairs), pass.repeatability, pass.one_to_one, pass.best_localization));
+    repeatability_cumulative_.publish(repeatabilityMessage(headFor(pairs), pass));
   }
   if (wants(MetricFamily::kAssociation)) {
     association_cumulative_.publish(associationMessage(headFor(sums.association().pairs()),

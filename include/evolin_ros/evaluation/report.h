@@ -149,8 +149,8 @@ struct RepeatabilityReport {
   bool poses = false;
   /// Distance in time of the nearest depth image that was too far away; none: there was no such.
   std::optional<Stamp> nearest_depth_miss;
-  std::vector<RepeatabilityRow> rows;
-  OneToOneRepeatability one_to_one;  ///< of the first frame step, as the next
+  std::vector<RepeatabilityRow> rows;  ///< of all lines, then by score threshold
+  OneToOneRepeatability one_to_one;    ///< of the first frame step, as the next
   BestLocalization best_localization;
   std::size_t best_count = 0;  ///< N of the N best
   std::vector<RepeatabilityRecord> records;
