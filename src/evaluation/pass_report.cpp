@@ -149,6 +149,7 @@ void PassEvaluation::fillHeatmap(Report* report) const {
   report->heatmap.score_thresholds = evaluator_.heatmapThresholds();
   report->heatmap.counts = evaluator_.heatmap();
   report->heatmap.frames = evaluator_.heatmapFrames();
+  report->heatmap.unscored = evaluator_.unscoredHeatmap();
   report->heatmap.pending = heatmaps_pending_;
 }
 

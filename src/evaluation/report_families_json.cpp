@@ -86,6 +86,17 @@ Json heatmapJson(const Report& report) {
                        {"ground_truth", counts.ground_truth}};
     entries.push_back(std::move(entry));
   }
+  if (heatmap.unscored.frames > 0) {
+    const Classification& counts = heatmap.unscored.counts;
+    object["unscored"] = {{"frames", heatmap.unscored.frames + heatmap.unscored.empty_frames},
+                          {"precision", counts.precision()},
+                          {"recall", counts.recall()},
+                          {"f_score", counts.fScore()},
+                          {"counts",
+                           {{"true_positives", counts.true_positives},
+                            {"predicted", counts.predicted},
+                            {"ground_truth", counts.ground_truth}}}};
+  }
   if (!heatmap.score_thresholds.empty()) {
     const HeatmapSummary summary = summarizeHeatmap(heatmap.counts);
     object["average_precision"] = reason.empty() ? Json(summary.average_precision) : Json(nullptr);

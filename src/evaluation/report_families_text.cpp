@@ -47,11 +47,21 @@ std::string heatmapSection(const Report& report) {
   const HeatmapReport& heatmap = report.heatmap;
   std::string text = "\n## Detection on pixels (heatmap)\n\n";
   const std::string reason = whyNoHeatmap(report);
-  if (!reason.empty()) {
+  const UnscoredHeatmap& unscored = heatmap.unscored;
+  if (!reason.empty() && unscored.frames == 0) {
     return text + reason + "\n";
   }
   text +=
       "| score above | precision | recall | F | frames |\n| --- | ---: | ---: | ---: | ---: |\n";
+  if (unscored.frames > 0) {
+    text +=
+        "| (lines without scores) | " +
+        ratios(unscored.counts.precision(), unscored.counts.recall(), unscored.counts.fScore()) +
+        " | " + std::to_string(unscored.frames + unscored.empty_frames) + " |\n";
+  }
+  if (!reason.empty()) {
+    return text + "\n" + reason + "\n";
+  }
   for (std::size_t i = 0; i < heatmap.counts.size(); ++i) {
     const Classification& counts = heatmap.counts[i];
     text += "| " +

@@ -83,6 +83,9 @@ std::string whyNoDetectedAssociation(const Report& report) {
 }
 
 std::string whyNoHeatmap(const Report& report) {
+  if (report.heatmap.lacksScores()) {
+    return "not evaluated by score: the lines carry no scores";
+  }
   if (report.heatmap.frames > 0) {
     return {};
   }

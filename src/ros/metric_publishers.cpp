@@ -73,9 +73,10 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
     }
   }
   for (const HeatmapRecord& frame : update.heatmaps) {
-    heatmap_frame_.publish(heatmapMessage(
-        headOf(frame.stamp), HeatmapMetrics(options_.evaluation.heatmap).scoreThresholds(),
-        frame.counts));
+    const std::vector<double> thresholds =
+        frame.scored == false ? std::vector<double>()
+                              : HeatmapMetrics(options_.evaluation.heatmap).scoreThresholds();
+    heatmap_frame_.publish(heatmapMessage(headOf(frame.stamp), thresholds, frame.counts));
   }
   for (const RepeatabilityRecord& pair : update.repeatability) {
     const bool first_step = pair.frame_step == options_.motion.repeatabilities.frame_steps.front();
@@ -110,8 +111,14 @@ void MetricPublishers::publishSums(const PassSums& pass, const std_msgs::Header&
                                                    sums.detectionEntries(), sums.spread().share()));
   }
   if (wants(MetricFamily::kHeatmap)) {
-    heatmap_cumulative_.publish(
-        heatmapMessage(headFor(sums.heatmapFrames()), sums.heatmapThresholds(), sums.heatmap()));
+    const UnscoredHeatmap& unscored = sums.unscoredHeatmap();
+    if (unscored.frames > 0 && sums.heatmapFrames() == unscored.empty_frames) {
+      heatmap_cumulative_.publish(
+          heatmapMessage(headFor(unscored.frames + unscored.empty_frames), {}, {unscored.counts}));
+    } else {
+      heatmap_cumulative_.publish(
+          heatmapMessage(headFor(sums.heatmapFrames()), sums.heatmapThresholds(), sums.heatmap()));
+    }
   }
   if (wants(MetricFamily::kRepeatability)) {
     std::size_t pairs = 0;
