@@ -209,7 +209,9 @@ EvaluationUpdate PassEvaluation::addResult(const EvaluationResult& result) {
     return update;
   }
   evaluator_.addHeatmap(heatmap);
-  entries_.at(heatmap.stamp).record.heatmap = heatmap.counts;
+  if (heatmap.scored != false) {
+    entries_.at(heatmap.stamp).record.heatmap = heatmap.counts;
+  }
   update.heatmaps.push_back(heatmap);
   return update;
 }

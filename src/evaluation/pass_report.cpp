@@ -17,6 +17,13 @@ void sortByStamp(std::vector<Record>* records) {
   });
 }
 
+void appendRows(const RepeatabilityMetrics& metrics, std::vector<RepeatabilityRow>* rows) {
+  for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
+    const RepeatabilitySetting& setting = metrics.settings()[i];
+    rows->push_back({setting, metrics.pairs(setting.frame_step), metrics.figures(i)});
+  }
+}
+
 }  // namespace
 
 FrameState PassEvaluation::stateByWhatIsMissing(bool has_lines) {
@@ -37,6 +44,7 @@ CoverageCounts PassEvaluation::coverage() const {
 PassSums PassEvaluation::sums() const {
   return {evaluator_,
           motion_.repeatability(),
+          motion_.repeatabilityByScore(),
           motion_.oneToOne(),
           motion_.bestLocalization(),
           wants(MetricFamily::kTracks) ? tracks() : TrackReport(),
@@ -141,6 +149,7 @@ void PassEvaluation::fillHeatmap(Report* report) const {
   report->heatmap.score_thresholds = evaluator_.heatmapThresholds();
   report->heatmap.counts = evaluator_.heatmap();
   report->heatmap.frames = evaluator_.heatmapFrames();
+  report->heatmap.unscored = evaluator_.unscoredHeatmap();
   report->heatmap.pending = heatmaps_pending_;
 }
 
@@ -197,10 +206,9 @@ void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* r
   repeatability.depth = motion.hasDepth();
   repeatability.poses = motion.hasPoses();
   repeatability.nearest_depth_miss = motion.nearestDepthMiss();
-  const RepeatabilityMetrics& metrics = motion.repeatability();
-  for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
-    const RepeatabilitySetting& setting = metrics.settings()[i];
-    repeatability.rows.push_back({setting, metrics.pairs(setting.frame_step), metrics.figures(i)});
+  appendRows(motion.repeatability(), &repeatability.rows);
+  if (motion.repeatabilityByScore()) {
+    appendRows(*motion.repeatabilityByScore(), &repeatability.rows);
   }
   repeatability.one_to_one = motion.oneToOne();
   repeatability.best_localization = motion.bestLocalization();

@@ -86,6 +86,17 @@ Json heatmapJson(const Report& report) {
                        {"ground_truth", counts.ground_truth}};
     entries.push_back(std::move(entry));
   }
+  if (heatmap.unscored.frames > 0) {
+    const Classification& counts = heatmap.unscored.counts;
+    object["unscored"] = {{"frames", heatmap.unscored.frames + heatmap.unscored.empty_frames},
+                          {"precision", counts.precision()},
+                          {"recall", counts.recall()},
+                          {"f_score", counts.fScore()},
+                          {"counts",
+                           {{"true_positives", counts.true_positives},
+                            {"predicted", counts.predicted},
+                            {"ground_truth", counts.ground_truth}}}};
+  }
   if (!heatmap.score_thresholds.empty()) {
     const HeatmapSummary summary = summarizeHeatmap(heatmap.counts);
     object["average_precision"] = reason.empty() ? Json(summary.average_precision) : Json(nullptr);
@@ -106,6 +117,9 @@ Json repeatabilityJson(const Report& report) {
                   {"pairs", row.pairs},
                   {"repeatability", nullptr},
                   {"localization_error", nullptr}};
+    if (row.setting.score_threshold) {
+      entry["score_threshold"] = *row.setting.score_threshold;
+    }
     if (row.figures) {
       entry["repeatability"] = row.figures->repeatability;
       entry["localization_error"] = row.figures->localization_error;
@@ -136,6 +150,7 @@ Json repeatabilityJson(const Report& report) {
           {"no_pose", repeatability.counts.no_pose},
           {"bad_lines", repeatability.counts.bad_lines},
           {"late", repeatability.counts.late},
+          {"unscored_pairs", repeatability.counts.unscored_pairs},
           {"entries", std::move(entries)},
           {"one_to_one", std::move(one)},
           {"best_localization", std::move(localization)}};

@@ -42,11 +42,21 @@ std::string heatmapSection(const Report& report) {
   const HeatmapReport& heatmap = report.heatmap;
   std::string text = "\n## Detection on pixels (heatmap)\n\n";
   const std::string reason = whyNoHeatmap(report);
-  if (!reason.empty()) {
+  const UnscoredHeatmap& unscored = heatmap.unscored;
+  if (!reason.empty() && unscored.frames == 0) {
     return text + reason + "\n";
   }
   text +=
       "| score above | precision | recall | F | frames |\n| --- | ---: | ---: | ---: | ---: |\n";
+  if (unscored.frames > 0) {
+    text +=
+        "| (lines without scores) | " +
+        ratios(unscored.counts.precision(), unscored.counts.recall(), unscored.counts.fScore()) +
+        " | " + std::to_string(unscored.frames + unscored.empty_frames) + " |\n";
+  }
+  if (!reason.empty()) {
+    return text + "\n" + reason + "\n";
+  }
   for (std::size_t i = 0; i < heatmap.counts.size(); ++i) {
     const Classification& counts = heatmap.counts[i];
     text += "| " +
@@ -80,12 +90,16 @@ std::string repeatabilitySection(const Report& report) {
       "| step | distance | repeatability | localisation error | pairs |\n"
       "| ---: | --- | ---: | ---: | ---: |\n";
   for (const RepeatabilityRow& row : repeatability.rows) {
-    text += "| " + std::to_string(row.setting.frame_step) + " | " + toString(row.setting.distance) +
-            " " + formatDouble(row.setting.distance_threshold) + " | " +
-            (row.figures ? percentText(row.figures->repeatability) + " | " +
-                               fixedText(row.figures->localization_error, 2)
-                         : whyNoRepeatability(report, row) + " | -") +
-            " | " + std::to_string(row.pairs) + " |\n";
+    text +=
+        "| " + std::to_string(row.setting.frame_step) + " | " + toString(row.setting.distance) +
+        " " + formatDouble(row.setting.distance_threshold) +
+        (row.setting.score_threshold ? ", score above " + formatDouble(*row.setting.score_threshold)
+                                     : "") +
+        " | " +
+        (row.figures ? percentText(row.figures->repeatability) + " | " +
+                           fixedText(row.figures->localization_error, 2)
+                     : whyNoRepeatability(report, row) + " | -") +
+        " | " + std::to_string(row.pairs) + " |\n";
   }
   const OneToOneRepeatability& one_to_one = repeatability.one_to_one;
   if (one_to_one.visible() > 0) {
@@ -165,20 +179,26 @@ std::string tracksSection(const Report& report) {
 
 std::string repeatabilityToCsv(const Report& report) {
   std::string text =
-      "first_stamp,stamp,step,distance,threshold,lines,found_forward,found_backward,repeatability,"
+      "first_stamp,stamp,step,distance,threshold,score_threshold,lines,found_forward,found_"
+      "backward,repeatability,"
       "localization_error,one_to_one_by_count,one_to_one_by_length,best_localization_error\n";
   for (const RepeatabilityRecord& record : report.repeatability.records) {
-    std::size_t index = 0;
+    std::size_t of_all = 0;
+    std::size_t by_score = 0;
     for (const RepeatabilityRow& row : report.repeatability.rows) {
-      if (row.setting.frame_step != record.frame_step || index >= record.pair.size()) {
+      const std::optional<double>& score = row.setting.score_threshold;
+      const std::vector<PairRepeatability>& pairs = score ? record.by_score : record.pair;
+      std::size_t& index = score ? by_score : of_all;
+      if (row.setting.frame_step != record.frame_step || index >= pairs.size()) {
         continue;
       }
-      const PairRepeatability& pair = record.pair[index++];
+      const PairRepeatability& pair = pairs[index++];
       text += formatStamp(record.first_stamp) + "," + formatStamp(record.stamp) + "," +
               std::to_string(record.frame_step) + "," + toString(row.setting.distance) + "," +
-              formatDouble(row.setting.distance_threshold) + "," + std::to_string(pair.lines) +
-              "," + std::to_string(pair.forward.count) + "," + std::to_string(pair.backward.count) +
-              "," + formatDouble(pair.repeatability()) + "," +
+              formatDouble(row.setting.distance_threshold) + "," +
+              (score ? formatDouble(*score) : "") + "," + std::to_string(pair.lines) + "," +
+              std::to_string(pair.forward.count) + "," + std::to_string(pair.backward.count) + "," +
+              formatDouble(pair.repeatability()) + "," +
               formatDouble(pair.localizationError(report.protocol)) + ",";
       // Those beyond the article are of the first step alone.
       const bool first_step =

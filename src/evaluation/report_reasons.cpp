@@ -83,6 +83,9 @@ std::string whyNoDetectedAssociation(const Report& report) {
 }
 
 std::string whyNoHeatmap(const Report& report) {
+  if (report.heatmap.lacksScores()) {
+    return "not evaluated by score: the lines carry no scores";
+  }
   if (report.heatmap.frames > 0) {
     return {};
   }
@@ -107,6 +110,9 @@ std::string whyNoRepeatability(const Report& report, const RepeatabilityRow& row
            std::to_string(counts.no_depth) + " without depth" + nearestMiss(report.repeatability) +
            ", " + std::to_string(counts.no_pose) + " without a pose, " +
            std::to_string(counts.bad_lines) + " with lines that are not finite)";
+  }
+  if (row.setting.score_threshold && counts.unscored_pairs > 0) {
+    return "not evaluated: the lines carry no scores";
   }
   return "not evaluated: no two frames " + std::to_string(row.setting.frame_step) +
          " apart both had lines, depth and a pose";

@@ -1,6 +1,8 @@
 // One accumulator a frame: only its counts go back.
 #include "evolin_ros/evaluation/task.h"
 
+#include <algorithm>
+
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
 
@@ -41,7 +43,16 @@ PoseRecord TaskRunner::estimate(const PoseTask& task) const {
 HeatmapRecord TaskRunner::measure(const HeatmapTask& task) const {
   HeatmapRecord record;
   record.stamp = task.stamp;
-  HeatmapMetrics frame(heatmap_);
+  HeatmapOptions options = heatmap_;
+  const bool unscored = std::any_of(task.lines.begin(), task.lines.end(),
+                                    [](const LineSegment& line) { return !line.hasScore(); });
+  if (task.lines.empty()) {
+    record.scored.reset();
+  } else if (unscored && !options.score_thresholds.empty()) {
+    record.scored = false;
+    options.score_thresholds.clear();
+  }
+  HeatmapMetrics frame(options);
   try {
     const HeatmapOutcome outcome =
         frame.addFrame(0, formatStamp(task.stamp), task.size, task.lines, task.ground_truth);

@@ -24,6 +24,7 @@ class MetricPublishers {
 
   PassOptions options_;
   std::vector<RepeatabilitySetting> repeatability_settings_;
+  std::vector<RepeatabilitySetting> repeatability_settings_by_score_;
   ros::Publisher detection_frame_;
   ros::Publisher detection_cumulative_;
   ros::Publisher heatmap_frame_;

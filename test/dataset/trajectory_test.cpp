@@ -159,5 +159,32 @@ TEST(ReadTrajectory, ReadsARealTrajectory) {
   EXPECT_NEAR(pose->translation.z(), 1.6940, 1e-12);
 }
 
+TEST(Trajectory, ForgetsWhatNoLaterLookUpNeeds) {
+  constexpr Stamp kPeriod = kNanosecondsPerSecond / 100;
+  Trajectory all;
+  Trajectory forgetful;
+  std::size_t most = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Pose pose;
+    pose.translation.x() = i;
+    all.add({i * kPeriod, pose});
+    forgetful.add({i * kPeriod, pose});
+    const Stamp bound = (i - 50) * kPeriod;
+    forgetful.forgetBefore(bound);
+    most = std::max(most, forgetful.poses().size());
+    for (const Stamp stamp : {bound, bound + kPeriod / 3, i * kPeriod}) {
+      const std::optional<Pose> expected = all.at(stamp);
+      const std::optional<Pose> got = forgetful.at(stamp);
+      ASSERT_EQ(got.has_value(), expected.has_value());
+      if (got) {
+        ASSERT_EQ(got->translation, expected->translation);
+      }
+    }
+  }
+  EXPECT_LT(most, 200U) << "61 are needed";
+  forgetful.forgetBefore(1000 * kNanosecondsPerSecond);
+  EXPECT_EQ(forgetful.poses().size(), 1U) << "poses were there";
+}
+
 }  // namespace
 }  // namespace evolin

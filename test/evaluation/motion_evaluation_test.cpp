@@ -99,6 +99,50 @@ TEST(MotionEvaluation, FindsTheLinesOfAWallAgain) {
   EXPECT_EQ(motion.counts().no_depth + motion.counts().no_pose + motion.counts().late, 0U);
 }
 
+TEST(MotionEvaluation, ScoreThresholdsComeBesidesAllLines) {
+  MotionOptions options = shortSteps();
+  options.repeatability_score_thresholds = {0.75, 0.95};
+  MotionEvaluation motion(options);
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 3; ++frame) addFrame(&motion, frame, &collected);
+  ASSERT_TRUE(motion.repeatabilityByScore().has_value());
+  const RepeatabilityMetrics& by_score = *motion.repeatabilityByScore();
+  const std::size_t settings = motion.repeatability().settings().size();
+  ASSERT_EQ(by_score.settings().size(), 2 * settings);
+  ASSERT_EQ(collected.repeatability.size(), 2U);
+  for (const RepeatabilityRecord& record : collected.repeatability) {
+    ASSERT_EQ(record.pair.size(), settings);
+    ASSERT_EQ(record.by_score.size(), 2 * settings);
+    EXPECT_EQ(record.pair[0].lines, 6U);
+    EXPECT_EQ(record.by_score[0].lines, 4U);
+    EXPECT_EQ(record.by_score[settings].lines, 0U);
+  }
+  EXPECT_EQ(by_score.figures(0)->repeatability, 1);
+  EXPECT_EQ(by_score.figures(settings)->repeatability, 0);
+  EXPECT_EQ(motion.counts().unscored_pairs, 0U);
+}
+
+TEST(MotionEvaluation, LinesWithoutScoresHaveTheirRepeatabilityWithoutThresholds) {
+  MotionOptions options = shortSteps();
+  options.repeatability_score_thresholds = {0.75};
+  MotionEvaluation motion(options);
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 3; ++frame) {
+    LineSegments lines = linesAt(frame);
+    lines[1].score = kNoScore;
+    collected.take(motion.addDepth(stampOf(frame), wall()));
+    collected.take(motion.addPose(poseAt(frame)));
+    collected.take(motion.addLines(detected(stampOf(frame), lines)));
+  }
+  EXPECT_TRUE(collected.notes.empty());
+  EXPECT_EQ(motion.repeatability().pairs(1), 2U);
+  EXPECT_EQ(motion.repeatability().figures(0)->repeatability, 1);
+  EXPECT_EQ(motion.repeatabilityByScore()->pairs(1), 0U);
+  EXPECT_EQ(motion.counts().unscored_pairs, 2U);
+}
+
 TEST(MotionEvaluation, CountsStepsOverFramesWithoutLines) {
   MotionOptions options;
   options.repeatabilities.frame_steps = {2};

@@ -471,6 +471,95 @@ TEST(PassEvaluation, MatchesOfFramesThatLeftTheBufferAreSkipped) {
   EXPECT_NE(report.notes.back().find("raise buffer"), std::string::npos) << report.notes.back();
 }
 
+TEST(PassEvaluation, HeatmapOfLinesWithoutScoresIsThatWithoutThresholds) {
+  PassOptions plain;
+  plain.families = {MetricFamily::kHeatmap};
+  PassOptions by_score = plain;
+  by_score.evaluation.heatmap.score_thresholds = {0.5, 0.1};
+  std::vector<Report> reports;
+  for (const PassOptions& options : {plain, by_score}) {
+    PassEvaluation pass(options);
+    const TaskRunner runner({options.evaluation.heatmap, options.motion.pose_method});
+    for (const Stamp stamp : {1, 2, 3}) {
+      LineSet lines = handLines(stamp);
+      lines.scored = false;
+      for (LineSegment& line : lines.lines) line.score = kNoScore;
+      if (stamp == 2) lines.lines.clear();
+      pass.addGroundTruth(handTruth(stamp));
+      for (const EvaluationTask& task : pass.addLines(lines).tasks) {
+        pass.addResult(runner.run(task));
+      }
+    }
+    reports.push_back(pass.report(true));
+  }
+  const Classification& expected = reports[0].heatmap.counts.at(0);
+  const UnscoredHeatmap& unscored = reports[1].heatmap.unscored;
+  EXPECT_EQ(unscored.frames, 2U);
+  EXPECT_EQ(unscored.empty_frames, 1U);
+  EXPECT_GT(expected.true_positives, 0U);
+  EXPECT_EQ(unscored.counts.true_positives, expected.true_positives);
+  EXPECT_EQ(unscored.counts.predicted, expected.predicted);
+  EXPECT_EQ(unscored.counts.ground_truth, expected.ground_truth);
+  EXPECT_EQ(reports[1].coverage.heatmap_skipped, 0U);
+  EXPECT_NE(whyNoHeatmap(reports[1]).find("no scores"), std::string::npos);
+  EXPECT_NE(toJson(reports[1]).find("\"unscored\""), std::string::npos);
+  EXPECT_NE(toMarkdown(reports[1]).find("lines without scores"), std::string::npos);
+  EXPECT_EQ(whyNoHeatmap(reports[0]), "");
+}
+
+/// By matches where `ids` is false: a frame has the lines 0, 1, 2 and every tenth loses the second.
+TrackReport tracksOf(int frames, std::size_t buffer, bool ids) {
+  PassOptions options = withBuffer(buffer);
+  options.families = {MetricFamily::kTracks};
+  PassEvaluation pass(options);
+  for (int i = 0; i < frames; ++i) {
+    const Stamp stamp = (i + 1) * kSecond;
+    LineSet lines = handLines(stamp);
+    for (std::size_t row = 0; ids && row < 3; ++row) {
+      lines.lines[row].id = static_cast<std::int64_t>(row) + (row == 1 ? 10 * (i / 10) : 0);
+    }
+    pass.addGroundTruth(handTruth(stamp));
+    pass.addLines(lines);
+    LineMatches matches = {{0, 0}, {2, 2}};
+    if (i % 10 != 0) matches.push_back({1, 1});
+    if (i > 0) pass.addMatches(matchSet(stamp - kSecond, stamp, "detector", matches));
+  }
+  return pass.tracks();
+}
+
+TEST(PassEvaluation, TracksAreTheSameWhateverTheBuffer) {
+  for (const bool ids : {true, false}) {
+    SCOPED_TRACE(ids);
+    for (const std::size_t buffer : {std::size_t{2}, std::size_t{40}, std::size_t{1000}}) {
+      const TrackReport tracks = tracksOf(200, buffer, ids);
+      EXPECT_EQ(tracks.from_matches, !ids);
+      EXPECT_EQ(tracks.frames, 200U);
+      EXPECT_EQ(tracks.tracks, 22U);
+      EXPECT_EQ(tracks.longest, 200U);
+      EXPECT_EQ(tracks.median_length, 10);
+      EXPECT_EQ(tracks.identity_switches, 0U) << "the second line is 6 pixels off: beyond the gate";
+      EXPECT_EQ(tracks.late, 0U);
+    }
+  }
+}
+
+TEST(PassEvaluation, MatchesOfFramesThatHaveLeftTheBufferAreSkippedWithANote) {
+  PassOptions options = withBuffer(3);
+  options.families = {MetricFamily::kAssociation};
+  PassEvaluation pass(options);
+  for (int i = 1; i <= 10; ++i) {
+    pass.addGroundTruth(handTruth(i * kSecond));
+    pass.addLines(handLines(i * kSecond));
+  }
+  pass.addMatches(matchSet(kSecond, 2 * kSecond, "detector", {{0, 0}}));
+  pass.addMatches(matchSet(9 * kSecond, 10 * kSecond, "detector", {{0, 0}}));
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.detected_pairs.evaluated, 1U);
+  EXPECT_EQ(report.detected_pairs.skipped, 1U);
+  ASSERT_EQ(report.notes.size(), 1U);
+  EXPECT_NE(report.notes[0].find("left the buffer of 3"), std::string::npos) << report.notes[0];
+}
+
 TEST(PassEvaluation, IsNotCompleteWhileTasksAreUnderWay) {
   PassEvaluation pass;
   pass.addGroundTruth(handTruth(1));

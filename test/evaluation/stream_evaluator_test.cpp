@@ -14,6 +14,7 @@
 namespace evolin {
 namespace {
 
+using test::detected;
 using test::expectCounts;
 using test::expectEqual;
 using test::expectSeenIsTheSum;
@@ -351,6 +352,40 @@ TEST(StreamEvaluator, DisorderAtTheStartIsNoJumpWhereAnotherInputKnowsTheFrame) 
     stream.addLines(handLines(3));
     EXPECT_EQ(stream.pass(), known ? 1 : 2);
     EXPECT_EQ(stream.coverage().seen, known ? 4U : 2U);
+  }
+}
+
+TEST(StreamEvaluator, ThePassBeforeChangesWithItsLastPartsAlone) {
+  StreamEvaluator stream;
+  for (const Stamp stamp : {1, 2, 3}) stream.addLines(handLines(stamp * kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged());
+  stream.addLines(handLines(kSecond));
+  EXPECT_EQ(stream.pass(), 2);
+  EXPECT_TRUE(stream.takePreviousChanged()) << "it has become the one before";
+  EXPECT_FALSE(stream.takePreviousChanged());
+  stream.addLines(handLines(2 * kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged());
+  stream.addGroundTruth(handTruth(kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged()) << "ground truth that starts late joins the newest";
+}
+
+TEST(StreamEvaluator, AJumpBackIsToldAfterAnyNumberOfFrames) {
+  PassOptions options;
+  options.families = {MetricFamily::kAssociation};
+  StreamEvaluator stream(options);
+  constexpr int kFrames = 3000;  // more than stamps are remembered
+  for (int i = 1; i <= kFrames; ++i) stream.addLines(detected(i * kSecond, {}));
+  EXPECT_EQ(stream.pass(), 1);
+  stream.addLines(detected(kFrames * kSecond - 5 * kSecond + 1, {}));
+  EXPECT_EQ(stream.pass(), 1) << "out of order";
+  for (const Stamp first : {Stamp{1}, Stamp{1500}, Stamp{2999}}) {
+    const int pass = stream.pass();
+    stream.addLines(detected(first * kSecond, {}));
+    EXPECT_EQ(stream.pass(), pass + 1) << first;
+    for (int i = static_cast<int>(first) + 1; i <= kFrames; ++i) {
+      stream.addLines(detected(i * kSecond, {}));
+    }
+    EXPECT_EQ(stream.pass(), pass + 1);
   }
 }
 

@@ -55,6 +55,7 @@ struct EvaluationUpdate {
 struct PassSums {
   SequenceEvaluator evaluator;
   RepeatabilityMetrics repeatability;
+  std::optional<RepeatabilityMetrics> repeatability_by_score;
   OneToOneRepeatability one_to_one;
   BestLocalization best_localization;
   TrackReport tracks;

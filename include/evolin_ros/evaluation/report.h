@@ -129,11 +129,22 @@ struct TimingSummary {
 /// `times` in seconds, any order; the percentile is linear between neighbours.
 TimingSummary summarizeTimes(std::vector<double> times);
 
+/// Heatmap figures of lines without scores, where there are score thresholds.
+struct UnscoredHeatmap {
+  std::size_t frames = 0;        ///< with such lines
+  std::size_t empty_frames = 0;  ///< without any lines: these count with and without scores
+  Classification counts;         ///< of all lines of both
+};
+
 struct HeatmapReport {
   std::vector<double> score_thresholds;  ///< falling; empty: all lines, one entry
   std::vector<Classification> counts;    ///< one a threshold
-  std::size_t frames = 0;
-  std::size_t pending = 0;  ///< still being measured
+  std::size_t frames = 0;                ///< in `counts`
+  std::size_t pending = 0;               ///< still being measured
+  UnscoredHeatmap unscored;
+
+  /// Whether lines came, but none with a score for the thresholds.
+  bool lacksScores() const { return unscored.frames > 0 && frames == unscored.empty_frames; }
 };
 
 struct RepeatabilityRow {
@@ -149,8 +160,8 @@ struct RepeatabilityReport {
   bool poses = false;
   /// Distance in time of the nearest depth image that was too far away; none: there was no such.
   std::optional<Stamp> nearest_depth_miss;
-  std::vector<RepeatabilityRow> rows;
-  OneToOneRepeatability one_to_one;  ///< of the first frame step, as the next
+  std::vector<RepeatabilityRow> rows;  ///< of all lines, then by score threshold
+  OneToOneRepeatability one_to_one;    ///< of the first frame step, as the next
   BestLocalization best_localization;
   std::size_t best_count = 0;  ///< N of the N best
   std::vector<RepeatabilityRecord> records;

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -27,7 +28,10 @@ struct HeatmapTask {
 struct HeatmapRecord {
   Stamp stamp = 0;
   std::vector<Classification> counts;  ///< by falling score threshold; one without thresholds
-  std::string reason;                  ///< why there are none; "" when there are
+  /// False: a line has no score although there are thresholds; `counts` is one, of all lines. None:
+  /// there are no lines, `counts` stand for either.
+  std::optional<bool> scored = true;
+  std::string reason;  ///< why there are none; "" when there are
 };
 
 struct EvaluationTask {
