@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "evolin_ros/evaluation/report_confidence.h"
 #include "node_parameters.h"
 
 namespace evolin::ros_shell {
@@ -154,7 +155,7 @@ EvaluationSession::~EvaluationSession() {
   }
 }
 
-std::filesystem::path EvaluationSession::save(bool complete) {
+std::filesystem::path EvaluationSession::save(bool complete, bool confidence) {
   // Written in the order in which they are built: a snapshot must not land on a final report.
   const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
   writeFinished();
@@ -167,6 +168,9 @@ std::filesystem::path EvaluationSession::save(bool complete) {
   }
   Report report = newest->second.report(complete);
   report.pass = newest->first;
+  if (confidence && options_.bootstrap.resamples > 0) {
+    addConfidence(newest->second.evaluator().detection(), options_.bootstrap, &report);
+  }
   newest.reset();
   std::filesystem::path file = write(std::move(report));
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -182,7 +186,7 @@ void EvaluationSession::saveChanges() {
     }
   }
   try {
-    save(false);
+    save(false, false);
   } catch (const std::exception& error) {
     if (errors_.due()) {
       log_.error(error.what());

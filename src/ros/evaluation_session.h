@@ -72,8 +72,9 @@ class EvaluationSession {
   void publishSums(bool now);
 
   /// Writes the report, and those of passes that are over and changed since they were written.
-  /// Returns the path of report.json; throws Error naming the file.
-  std::filesystem::path save(bool complete);
+  /// Returns the path of report.json; throws Error naming the file. `confidence`: whether its
+  /// figures get their intervals, which may take seconds (the evaluation goes on meanwhile).
+  std::filesystem::path save(bool complete, bool confidence);
 
   /// A snapshot where something new came in; errors go to the log.
   void saveChanges();

@@ -185,7 +185,9 @@ class EvaluatorNodelet : public SafeNodelet {
     const unsigned publishers = subscriber.getNumPublishers();
     watchdog_->heard(name);
     const EvaluationSession::Told told = session_->take(header, add);
-    tell(name + " (publishers: " + std::to_string(publishers) + ")", told);
+    std::string described = name;
+    described.append(" (publishers: ").append(std::to_string(publishers)).append(")");
+    tell(described, told);
     if (told.finished_pass && publishers > 1 && crowded_.insert(name).second) {
       NODELET_WARN(
           "%s has %u publishers and time jumped back to %.6f: where their stamps interleave, "
@@ -219,7 +221,7 @@ class EvaluatorNodelet : public SafeNodelet {
   }
 
   bool onSave(Trigger::Request& /*request*/, Trigger::Response& response) {
-    return answer(&response, [this] { return session_->save(false); });
+    return answer(&response, [this] { return session_->save(false, true); });
   }
 
   bool onFinish(Trigger::Request& /*request*/, Trigger::Response& response) {
@@ -230,7 +232,7 @@ class EvaluatorNodelet : public SafeNodelet {
                                                    matches_.getNumPublishers() > 0;
                                           });
     session_->publishSums(true);
-    return answer(&response, [this, complete] { return session_->save(complete); });
+    return answer(&response, [this, complete] { return session_->save(complete, true); });
   }
 
   bool onReset(Trigger::Request& /*request*/, Trigger::Response& response) {

@@ -29,6 +29,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   double heatmap_budget = 1;
   PoseErrorOptions& pose_errors = options.pass.evaluation.pose_errors;
   int pose_seed = static_cast<int>(motion.pose_method.seed);
+  int bootstrap_seed = static_cast<int>(options.bootstrap.seed);
   int best_lines = static_cast<int>(motion.best_localization.count);
   int depth_buffer = static_cast<int>(motion.depth_buffer);
   ParameterReader reader(parameters, owner);
@@ -66,6 +67,9 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   reader.read("idle_timeout", &options.idle_timeout, 0, kLongest);
   reader.read("drain_timeout", &options.drain_timeout, 0, kLongest);
   reader.read("warn_after", &options.warn_after, 0, kLongest);
+  reader.read("bootstrap", &options.bootstrap.resamples, 0, 10000000);
+  reader.read("bootstrap_block", &options.bootstrap.block_length, 0, 1000000000);
+  reader.read("bootstrap_seed", &bootstrap_seed, 0, std::numeric_limits<int>::max());
   reader.read("record_parameters", &options.record_parameters);
   // Set by the player: name, size and hash of the bag, for the report's provenance.
   reader.readMap("input");
@@ -92,6 +96,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   motion.pose_method.protocol = vectorized.protocol;
   motion.pose_method.strategy = parsePoseStrategy(strategy);
   motion.pose_method.seed = static_cast<std::uint64_t>(pose_seed);
+  options.bootstrap.seed = static_cast<std::uint64_t>(bootstrap_seed);
   motion.best_localization.count = static_cast<std::size_t>(best_lines);
   if (heatmap_budget > 0) {
     options.pass.evaluation.heatmap.frame_budget = heatmap_budget;

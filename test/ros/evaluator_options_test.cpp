@@ -67,6 +67,15 @@ TEST(EvaluatorOptions, OfPosesAndRepeatabilityReachTheirMetrics) {
   EXPECT_EQ(motion.repeatability_score_thresholds, (std::vector<double>{0.5, 0.9}));
 }
 
+TEST(EvaluatorOptions, OfTheBootstrapMayBeNone) {
+  EXPECT_EQ(read("{}").bootstrap.resamples, 1000);
+  const BootstrapOptions options =
+      read("{bootstrap: 0, bootstrap_block: 5, bootstrap_seed: 9}").bootstrap;
+  EXPECT_EQ(options.resamples, 0);
+  EXPECT_EQ(options.block_length, 5);
+  EXPECT_EQ(options.seed, 9U);
+}
+
 TEST(EvaluatorOptions, RefuseByNameWithValueAndRange) {
   const auto expectRefusal = [](const std::string& yaml, const std::string& key,
                                 const std::string& part) {
@@ -85,6 +94,9 @@ TEST(EvaluatorOptions, RefuseByNameWithValueAndRange) {
   expectRefusal("one_to_one_distance: 0", "one_to_one_distance", "'0'");
   expectRefusal("one_to_one_angle: 91", "one_to_one_angle", "'91'");
   expectRefusal("one_to_one_overlap: 1.5", "one_to_one_overlap", "from 0 to 1");
+  expectRefusal("bootstrap: -1", "bootstrap", "from 0 to 10000000");
+  expectRefusal("bootstrap_block: -2", "bootstrap_block", "'-2'");
+  expectRefusal("bootstrap_seed: x", "bootstrap_seed", "'x'");
   expectRefusal("best_lines: 0", "best_lines", "'0'");
   expectRefusal("repeatability_score_thresholds: [high]", "repeatability_score_thresholds",
                 "'high'");

@@ -13,6 +13,7 @@
 #include "evolin_ros/evaluation/motion_evaluation.h"
 #include "evolin_ros/evaluation/task.h"
 #include "evolin_ros/evaluation/track_follower.h"
+#include "evolin_ros/metrics/bootstrap.h"
 #include "evolin_ros/metrics/classification.h"
 #include "evolin_ros/metrics/detected_association.h"
 #include "evolin_ros/metrics/pose_error.h"
@@ -176,6 +177,22 @@ struct PoseReport {
   std::vector<PoseRecord> records;
 };
 
+/// Where one figure of the sequence lies with confidence.
+struct FigureInterval {
+  std::string family;
+  std::string figure;       ///< its key in report.json
+  std::optional<int> step;  ///< the figure's setting, as far as it has one
+  std::optional<LineDistance> distance;
+  std::optional<double> threshold;
+  std::optional<double> score_threshold;
+  ConfidenceInterval interval;
+};
+
+struct ReportConfidence {
+  BootstrapOptions options;
+  std::vector<FigureInterval> figures;
+};
+
 struct Report {
   MetricFamilies families;
   Protocol protocol = Protocol::kEvolin;
@@ -205,6 +222,7 @@ struct Report {
   TrackReport tracks;
   TimingSummary detector_timing;
   TimingSummary associator_timing;
+  std::optional<ReportConfidence> confidence;             ///< addConfidence(); none: not asked for
   std::vector<FrameRecord> frames;                        ///< every frame seen, by stamp
   std::vector<PairRecord> pair_records;                   ///< every pair evaluated, by stamp
   std::vector<DetectedPairRecord> detected_pair_records;  ///< by stamp
