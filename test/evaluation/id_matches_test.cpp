@@ -159,6 +159,32 @@ TEST(MatchesFromIds, CountAsMatchesDo) {
   EXPECT_EQ(by_ids.at("association").at("source"), "ids");
 }
 
+TEST(MatchesFromIds, AreWhatRelativePoseIsEstimatedFrom) {
+  const auto poseOf = [](bool from_ids) {
+    PassOptions options;
+    options.matches_from_ids = from_ids;
+    StreamEvaluator evaluator(options);
+    Camera camera;
+    camera.width = camera.height = kSide;
+    camera.fx = camera.fy = 100;
+    camera.cx = camera.cy = 63.5;
+    evaluator.setCamera(camera);
+    for (int frame = 1; frame <= 4; ++frame) {
+      const cv::Mat flat(kSide, kSide, CV_32FC1, cv::Scalar(2));
+      EvaluationUpdate update = evaluator.addDepth(frame * kSecond, DepthMap(flat));
+      update.append(evaluator.addPose({frame * kSecond, Pose()}));
+      runTasks({}, &evaluator, &update);
+    }
+    for (const Part& part : trackedPass(from_ids, !from_ids)) {
+      give(part, &evaluator);
+    }
+    return nlohmann::json::parse(toJson(evaluator.report(true))).at("pose");
+  };
+  const nlohmann::json by_ids = poseOf(true);
+  EXPECT_EQ(by_ids.at("pairs"), 3);
+  EXPECT_EQ(by_ids, poseOf(false));
+}
+
 TEST(MatchesFromIds, LeaveTheMatchesTopicOut) {
   const nlohmann::json report = reportOf(trackedPass(true, true), true);
   EXPECT_EQ(report.at("association_detected").at("pairs"), 3) << "none twice";

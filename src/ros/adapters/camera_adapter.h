@@ -92,10 +92,10 @@ class CameraAdapter : public SafeNodelet {
       ++lost_;
       if (warnings_.due()) {
         NODELET_WARN(
-            "%s: %zu messages given up, the newest %d are held back: there is no usable camera on "
-            "%s yet",
-            topic_.c_str(), lost_, queue_size_,
-            getNodeHandle().resolveName(topics::kCameraInfo).c_str());
+            "%s: there is no usable camera on %s yet; of the messages the newest %d are held back, "
+            "given up: %zu",
+            topic_.c_str(), getNodeHandle().resolveName(topics::kCameraInfo).c_str(), queue_size_,
+            lost_);
       }
     }
   }
@@ -103,7 +103,7 @@ class CameraAdapter : public SafeNodelet {
   void release() {
     watchdog_->heard(getNodeHandle().resolveName(topics::kCameraInfo));
     if (lost_ > 0) {
-      NODELET_WARN("%s: %zu messages came before the camera was known and were given up",
+      NODELET_WARN("%s: messages that came before the camera was known and were given up: %zu",
                    topic_.c_str(), lost_);
     }
     for (const MessagePtr& message : held_) {

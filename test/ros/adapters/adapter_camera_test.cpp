@@ -75,7 +75,7 @@ TEST(AdapterCamera, AppliesRegionAndBinningToBoth) {
 TEST(AdapterCamera, RefusesUncalibratedOnesUnlessTheSizeIsEnough) {
   sensor_msgs::CameraInfo message = info();
   message.K.fill(0);
-  expectError([&] { viewOf(message, AdapterPixels::kDistorted); }, {"not calibrated"});
+  expectError([&] { viewOf(message, AdapterPixels::kDistorted); }, {"uncalibrated"});
   EXPECT_EQ(viewOf(message, AdapterPixels::kSizeOnly).view.size().width, 640);
   EXPECT_EQ(viewOf(message, AdapterPixels::kSizeOnly).frame_id, "cam0");
   message.width = 0;
