@@ -1,6 +1,5 @@
 // Twenty lines between a front-end's own messages and the evaluator. PolygonStamped stands for your
-// message: its points are, two by two, the endpoints of tracked lines in pixels, z is the track's
-// id.
+// message: two by two, its points are ends of tracked lines in pixels, with the track's id as z.
 #include <evolin_ros/LineArray.h>
 #include <geometry_msgs/PolygonStamped.h>
 #include <ros/ros.h>

@@ -207,5 +207,14 @@ class PackageLists(unittest.TestCase):
         self.assertEqual(sorted(set(self.listed)), sorted(self.listed))
 
 
+class Examples(unittest.TestCase):
+    def test_the_readme_shows_the_adapter_that_is_tested(self):
+        root = os.path.join(SCRIPTS, "..")
+        with open(os.path.join(root, "docs", "examples", "own_front_end_adapter.cpp")) as file:
+            code = file.read()
+        with open(os.path.join(root, "README.md")) as file:
+            self.assertIn("```cpp\n" + code + "```", file.read())
+
+
 if __name__ == "__main__":
     unittest.main()
