@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -89,6 +90,16 @@ bool Trajectory::add(const StampedPose& pose) {
   }
   poses_.insert(place, pose);
   return true;
+}
+
+void Trajectory::forgetBefore(Stamp stamp) {
+  const auto needed =
+      std::lower_bound(poses_.begin(), poses_.end(), stamp - kMaxGap,
+                       [](const StampedPose& pose, Stamp time) { return pose.stamp < time; });
+  // As many are moved as are forgotten, at most; one is always left.
+  if (2 * (needed - poses_.begin()) > static_cast<std::ptrdiff_t>(poses_.size())) {
+    poses_.erase(poses_.begin(), std::min(needed, std::prev(poses_.end())));
+  }
 }
 
 std::optional<Pose> Trajectory::at(Stamp stamp) const {

@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "evolin_ros/base/error.h"
-#include "evolin_ros/metrics/association.h"
 
 namespace evolin {
 
@@ -29,12 +28,27 @@ void requireSize(const std::string& frame, ImageSize lines, ImageSize depth) {
   }
 }
 
+std::optional<RepeatabilityMetrics> byScore(const MotionOptions& options) {
+  if (options.repeatability_score_thresholds.empty()) {
+    return std::nullopt;
+  }
+  RepeatabilityOptions repeatabilities = options.repeatabilities;
+  repeatabilities.score_thresholds = options.repeatability_score_thresholds;
+  return RepeatabilityMetrics(repeatabilities);
+}
+
+bool isScored(const SpatialFrame& frame) {
+  return std::all_of(frame.lines.begin(), frame.lines.end(),
+                     [](const SpatialLine& line) { return line.segment.hasScore(); });
+}
+
 }  // namespace
 
 MotionEvaluation::MotionEvaluation(MotionOptions options)
     : options_(std::move(options)),
       method_(options_.pose_method),
       repeatability_(options_.repeatabilities),
+      by_score_(byScore(options_)),
       one_to_one_(options_.one_to_one),
       best_localization_(options_.best_localization),
       depth_(options_.max_time_difference, options_.depth_buffer) {}
@@ -66,6 +80,14 @@ MotionUpdate MotionEvaluation::addImage(Stamp stamp) {
   return update;
 }
 
+void MotionEvaluation::removeImage(Stamp stamp) {
+  const auto node = nodes_.find(stamp);
+  if (node != nodes_.end() && node->second.detected.state == State::kAbsent &&
+      node->second.truth.state == State::kAbsent) {
+    nodes_.erase(node);
+  }
+}
+
 MotionUpdate MotionEvaluation::addLines(const LineSet& lines) {
   MotionUpdate update;
   lines_source_ = lines.source;
@@ -73,9 +95,7 @@ MotionUpdate MotionEvaluation::addLines(const LineSet& lines) {
     ++counts_.late;
   }
   if (Node* node = nodeAt(lines.stamp, &update)) {
-    node->detected.state = State::kWaiting;
-    node->detected.lines = lines.lines;
-    node->detected.size = {lines.width, lines.height};
+    takeLines(lines, true, &node->detected, &update);
     unresolved_.insert(lines.stamp);
     resolve(lines.stamp, false, &update);
     advance(false, &update);
@@ -88,15 +108,30 @@ MotionUpdate MotionEvaluation::addGroundTruth(const LineSet& ground_truth) {
   ground_truth_source_ = ground_truth.source;
   if (Node* node = nodeAt(ground_truth.stamp, &update)) {
     if (options_.pose) {
-      node->truth.state = State::kWaiting;
-      node->truth.lines = ground_truth.lines;
-      node->truth.size = {ground_truth.width, ground_truth.height};
+      takeLines(ground_truth, false, &node->truth, &update);
       unresolved_.insert(ground_truth.stamp);
       resolve(ground_truth.stamp, false, &update);
     }
     advance(false, &update);
   }
   return update;
+}
+
+void MotionEvaluation::takeLines(const LineSet& lines, bool detected, Lifting* lifting,
+                                 MotionUpdate* update) {
+  const auto bad = std::find_if(lines.lines.begin(), lines.lines.end(),
+                                [](const LineSegment& line) { return !line.isFinite(); });
+  lifting->state = bad == lines.lines.end() ? State::kWaiting : State::kBad;
+  if (lifting->state == State::kBad) {
+    update->notes.push_back((detected ? "lines of frame " : "ground truth of frame ") +
+                            formatStamp(lines.stamp) + ", row " +
+                            std::to_string(bad - lines.lines.begin()) +
+                            ": coordinates are not finite; the frame is left out of repeatability "
+                            "and relative pose");
+    return;
+  }
+  lifting->lines = lines.lines;
+  lifting->size = {lines.width, lines.height};
 }
 
 MotionUpdate MotionEvaluation::addDepth(Stamp stamp, DepthMap depth) {
@@ -115,22 +150,6 @@ MotionUpdate MotionEvaluation::addPose(const StampedPose& pose) {
   if (trajectory_.add(pose)) {
     resolveAll(false, &update);
     advance(false, &update);
-  }
-  return update;
-}
-
-MotionUpdate MotionEvaluation::addMatches(const MatchSet& matches) {
-  MotionUpdate update;
-  if (!options_.pose) {
-    return update;
-  }
-  const PairKey key(matches.first_stamp, matches.stamp);
-  if (!tryPair(key, matches, false, &update)) {
-    pending_.insert_or_assign(key, matches);
-    if (pending_.size() > options_.buffer) {
-      tryPair(pending_.begin()->first, pending_.begin()->second, true, &update);
-      pending_.erase(pending_.begin());
-    }
   }
   return update;
 }
@@ -174,7 +193,10 @@ void MotionEvaluation::limitNodes(MotionUpdate* update) {
     settle(stamp, &oldest->second, update);
   }
   unresolved_.erase(stamp);
+  gone_ = std::max(stamp, gone_.value_or(stamp));
   nodes_.erase(oldest);
+  // One that is older than all that are kept is not taken any more.
+  trajectory_.forgetBefore(nodes_.begin()->first);
 }
 
 void MotionEvaluation::resolveAll(bool complete, MotionUpdate* update) {
@@ -275,7 +297,9 @@ void MotionEvaluation::settle(Stamp stamp, Node* node, MotionUpdate* update) {
   if (node->detected.state == State::kAbsent) {
     return;
   }
-  if (node->pose_state != State::kReady) {
+  if (node->detected.state == State::kBad) {
+    ++counts_.bad_lines;
+  } else if (node->pose_state != State::kReady) {
     ++counts_.no_pose;
   } else if (node->detected.state != State::kReady) {
     ++counts_.no_depth;
@@ -315,6 +339,11 @@ void MotionEvaluation::scorePairs(Stamp stamp, const std::shared_ptr<const Spati
       update->notes.emplace_back(error.what());
       continue;
     }
+    if (by_score_ && isScored(*first->frame) && isScored(*frame)) {
+      record.by_score = by_score_->addPair(step, *first->frame, *frame);
+    } else if (by_score_) {
+      ++counts_.unscored_pairs;
+    }
     // The relatives are of one step, or their pairs would count several times.
     if (step == steps.front()) {
       const OneToOneRepeatability one_to_one = one_to_one_.addPair(*first->frame, *frame);
@@ -324,71 +353,6 @@ void MotionEvaluation::scorePairs(Stamp stamp, const std::shared_ptr<const Spati
     }
     update->repeatability.push_back(std::move(record));
   }
-}
-
-void MotionEvaluation::tryPairs(Stamp stamp, MotionUpdate* update) {
-  for (auto pair = pending_.begin(); pair != pending_.end();) {
-    const bool concerned = pair->first.first == stamp || pair->first.second == stamp;
-    const bool done = concerned && tryPair(pair->first, pair->second, false, update);
-    pair = done ? pending_.erase(pair) : std::next(pair);
-  }
-}
-
-bool MotionEvaluation::tryPair(const PairKey& key, const MatchSet& matches, bool complete,
-                               MotionUpdate* update) {
-  const auto first = nodes_.find(key.first);
-  const auto second = nodes_.find(key.second);
-  const bool sources_known = !ground_truth_source_.empty() || matches.lines_source == lines_source_;
-  if (!complete && (first == nodes_.end() || second == nodes_.end() || !sources_known)) {
-    return false;
-  }
-  const bool truth = !ground_truth_source_.empty() && matches.lines_source == ground_truth_source_;
-  bool no_depth = false;
-  bool no_pose = false;
-  for (const auto& node : {first, second}) {
-    const bool gone = node == nodes_.end();
-    const State lines = gone    ? State::kAbsent
-                        : truth ? node->second.truth.state
-                                : node->second.detected.state;
-    const State pose = gone ? State::kNever : node->second.pose_state;
-    const bool undecided =
-        lines == State::kAbsent || lines == State::kWaiting || pose == State::kWaiting;
-    if (undecided && !complete) {
-      return false;
-    }
-    no_depth = no_depth || lines != State::kReady;
-    no_pose = no_pose || pose != State::kReady;
-  }
-  if (no_pose) {
-    ++counts_.pairs_no_pose;
-  } else if (no_depth) {
-    ++counts_.pairs_no_depth;
-  } else {
-    makeTask(matches, first->second, second->second, truth, update);
-  }
-  return true;
-}
-
-void MotionEvaluation::makeTask(const MatchSet& matches, const Node& first, const Node& second,
-                                bool truth, MotionUpdate* update) {
-  PoseTask task;
-  task.first_stamp = matches.first_stamp;
-  task.stamp = matches.stamp;
-  task.matched = matches.matches.size();
-  try {
-    task.matches = liftedMatches(truth ? first.truth.lifted : first.detected.lifted,
-                                 truth ? second.truth.lifted : second.detected.lifted,
-                                 toIndexPairs(matches.matches));
-  } catch (const Error& error) {
-    ++counts_.pairs_skipped;
-    update->notes.push_back("matches of " + formatStamp(matches.first_stamp) + " and " +
-                            formatStamp(matches.stamp) + ": " + error.what());
-    return;
-  }
-  task.camera = *camera_;
-  task.truth = relativeMotion(first.pose, second.pose);
-  ++counts_.pose_pairs;
-  update->pose_tasks.push_back(std::move(task));
 }
 
 }  // namespace evolin

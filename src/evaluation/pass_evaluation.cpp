@@ -2,7 +2,6 @@
 #include "evolin_ros/evaluation/pass_evaluation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <unordered_set>
 #include <utility>
@@ -15,15 +14,6 @@ namespace evolin {
 namespace {
 
 constexpr std::size_t kMostNotes = 100;
-
-bool isMeasured(double processing_time) {
-  return std::isfinite(processing_time) && processing_time > 0;
-}
-
-bool hasIds(const LineSegments& lines) {
-  return std::any_of(lines.begin(), lines.end(),
-                     [](const LineSegment& line) { return line.id >= 0; });
-}
 
 /// Empty when no line has an id. An id names one line of a frame: only its first row keeps it.
 std::vector<std::int64_t> trackIdsOf(const LineSegments& lines, std::size_t* repeated) {
@@ -67,6 +57,7 @@ void EvaluationUpdate::append(EvaluationUpdate other) {
   appendTo(&notes, std::move(other.notes));
   appendTo(&warnings, std::move(other.warnings));
   new_pass = new_pass || other.new_pass;
+  image_offset = image_offset ? image_offset : other.image_offset;
 }
 
 PassEvaluation::PassEvaluation(PassOptions options)
@@ -105,23 +96,21 @@ std::uint32_t PassEvaluation::placeOfLines(Stamp stamp) {
   return place;
 }
 
-EvaluationUpdate PassEvaluation::addImage(Stamp stamp) {
-  entryAt(stamp).image = true;
-  EvaluationUpdate update;
-  take(motion_.addImage(stamp), &update);
-  return update;
-}
-
 EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
   EvaluationUpdate update;
   const Stamp stamp = lines.stamp;
   Entry& entry = entryAt(stamp);
+  noteFrame(stamp, entry);
   entry.number = placeOfLines(stamp);
   entry.record.lines = lines.lines.size();
-  entry.line_count = lines.lines.size();
+  noteLines(stamp);
+  settleImages(&update);
   if (wants(MetricFamily::kTracks)) {
     std::size_t repeated = 0;
-    entry.track_ids = trackIdsOf(lines.lines, &repeated);
+    TrackedLines& tracked = unfollowed_[stamp];
+    tracked.stamp = stamp;
+    tracked.count = lines.lines.size();
+    tracked.track_ids = trackIdsOf(lines.lines, &repeated);
     if (repeated > 0) {
       note("lines of frame " + formatStamp(stamp) + ": " + std::to_string(repeated) +
                " repeat an id of the same frame; the first line of an id alone is followed",
@@ -129,9 +118,7 @@ EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
     }
   }
   take(motion_.addLines(lines), &update);
-  if (!isMeasured(lines.processing_time)) {
-    lines.processing_time = 0;
-  }
+  lines.processing_time = measuredTime(lines.processing_time);
   entry.record.processing_time = lines.processing_time;
   if (lines.processing_time > 0) {
     detector_times_.push_back(lines.processing_time);
@@ -144,6 +131,7 @@ EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
   entry.lines = std::move(lines);
   hold(stamp);
   evaluateFrame(&entry, &update);
+  followTracks();
   return update;
 }
 
@@ -151,6 +139,7 @@ EvaluationUpdate PassEvaluation::addGroundTruth(LineSet ground_truth) {
   EvaluationUpdate update;
   const Stamp stamp = ground_truth.stamp;
   Entry& entry = entryAt(stamp);
+  noteFrame(stamp, entry);
   entry.record.ground_truth = ground_truth.lines.size();
   ground_truth_source_ = ground_truth.source;
   ++ground_truth_seen_;
@@ -164,62 +153,6 @@ EvaluationUpdate PassEvaluation::addGroundTruth(LineSet ground_truth) {
   evaluateFrame(&entry, &update);
   evaluatePairsOf(stamp, &update);
   return update;
-}
-
-EvaluationUpdate PassEvaluation::addMatches(MatchSet matches) {
-  EvaluationUpdate update;
-  if (!isMeasured(matches.processing_time)) {
-    matches.processing_time = 0;
-  }
-  if (matches.processing_time > 0) {
-    associator_times_.push_back(matches.processing_time);
-  }
-  matches_source_ = matches.source;
-  matches_lines_source_ = matches.lines_source;
-  newest_matches_ = std::max(matches.stamp, newest_matches_.value_or(matches.stamp));
-  if (const std::string why = whyUnusable(matches); !why.empty()) {
-    ++pair_counts_.skipped;
-    note("matches of " + formatStamp(matches.first_stamp) + " and " + formatStamp(matches.stamp) +
-             ": " + why,
-         &update);
-    return update;
-  }
-  if (wants(MetricFamily::kTracks)) {
-    keepForTracks(matches);
-  }
-  take(motion_.addMatches(matches), &update);
-  if (evaluatePair(matches, &update)) {
-    return update;
-  }
-  pending_pairs_.emplace(PairKey(matches.first_stamp, matches.stamp), std::move(matches));
-  if (pending_pairs_.size() > options_.buffer) {
-    const MatchSet& oldest = pending_pairs_.begin()->second;
-    ++(betweenDetectedLines(oldest) ? pair_counts_.detected_lines : pair_counts_.no_ground_truth);
-    pending_pairs_.erase(pending_pairs_.begin());
-  }
-  return update;
-}
-
-/// "" for matches that may be scored once all their parts are there.
-std::string PassEvaluation::whyUnusable(const MatchSet& matches) const {
-  if (matches.first_stamp >= matches.stamp) {
-    return "the first image must be the earlier one";
-  }
-  const bool known = matches.lines_source == lines_source_ ||
-                     matches.lines_source == ground_truth_source_ || lines_source_.empty() ||
-                     ground_truth_source_.empty();
-  return known ? ""
-               : "they are between lines of " + quote(matches.lines_source) +
-                     "; expected those of the detector, " + quote(lines_source_) +
-                     ", or of the ground truth, " + quote(ground_truth_source_);
-}
-
-/// Matches come after the lines that they are between; of ones that overtake them no track is made.
-void PassEvaluation::keepForTracks(const MatchSet& matches) {
-  const auto second = entries_.find(matches.stamp);
-  if (second != entries_.end() && matches.lines_source != ground_truth_source_) {
-    second->second.earlier_matches = matches;
-  }
 }
 
 EvaluationUpdate PassEvaluation::setCamera(const Camera& camera) {
@@ -259,7 +192,9 @@ EvaluationUpdate PassEvaluation::addResult(const EvaluationResult& result) {
     --poses_pending_;
     evaluator_.addPose(*pose);
     pose_records_.push_back(*pose);
-    update.poses.push_back(*pose);
+    pose_records_.back().frame_step = stepBetween(pose->first_stamp, pose->stamp);
+    pose_steps_.insert(pose_records_.back().frame_step);
+    update.poses.push_back(pose_records_.back());
     return update;
   }
   const auto& heatmap = std::get<HeatmapRecord>(result.record);
@@ -270,7 +205,9 @@ EvaluationUpdate PassEvaluation::addResult(const EvaluationResult& result) {
     return update;
   }
   evaluator_.addHeatmap(heatmap);
-  entries_.at(heatmap.stamp).record.heatmap = heatmap.counts;
+  if (heatmap.scored != false) {
+    entries_.at(heatmap.stamp).record.heatmap = heatmap.counts;
+  }
   update.heatmaps.push_back(heatmap);
   return update;
 }
@@ -336,83 +273,6 @@ void PassEvaluation::scoreFrame(Entry* entry, EvaluationUpdate* update) {
   }
 }
 
-void PassEvaluation::evaluatePairsOf(Stamp stamp, EvaluationUpdate* update) {
-  for (auto pair = pending_pairs_.begin(); pair != pending_pairs_.end();) {
-    const bool concerned = pair->first.first == stamp || pair->first.second == stamp;
-    const bool settled = concerned && evaluatePair(pair->second, update);
-    pair = settled ? pending_pairs_.erase(pair) : std::next(pair);
-  }
-}
-
-bool PassEvaluation::evaluatePair(const MatchSet& matches, EvaluationUpdate* update) {
-  if (ground_truth_source_.empty()) {
-    return false;
-  }
-  if (matches.lines_source != ground_truth_source_) {
-    ++pair_counts_.detected_lines;
-    if (!evaluateDetectedPair(matches, update)) {
-      pending_detected_pairs_.emplace(PairKey(matches.first_stamp, matches.stamp), matches);
-      if (pending_detected_pairs_.size() > options_.buffer) {
-        ++detected_pair_counts_.no_ground_truth;
-        pending_detected_pairs_.erase(pending_detected_pairs_.begin());
-      }
-    }
-    return true;
-  }
-  const auto first = entries_.find(matches.first_stamp);
-  const auto second = entries_.find(matches.stamp);
-  if (first == entries_.end() || second == entries_.end() || !first->second.ground_truth ||
-      !second->second.ground_truth) {
-    return false;
-  }
-  if (!hasIds(first->second.ground_truth->lines) && !hasIds(second->second.ground_truth->lines) &&
-      !(first->second.ground_truth->lines.empty() && second->second.ground_truth->lines.empty())) {
-    ++pair_counts_.without_ids;
-    return true;
-  }
-  try {
-    pair_records_.push_back(evaluator_.addPair(matches, first->second.ground_truth->lines,
-                                               second->second.ground_truth->lines));
-    ++pair_counts_.evaluated;
-    update->pairs.push_back(pair_records_.back());
-  } catch (const GroundTruthError& error) {
-    ++pair_counts_.bad_ground_truth;
-    note(error.what(), update);
-  } catch (const Error& error) {
-    ++pair_counts_.skipped;
-    note(error.what(), update);
-  }
-  return true;
-}
-
-bool PassEvaluation::evaluateDetectedPair(const MatchSet& matches, EvaluationUpdate* update) {
-  if (!wants(MetricFamily::kAssociation)) {
-    return true;
-  }
-  const auto first = entries_.find(matches.first_stamp);
-  const auto second = entries_.find(matches.stamp);
-  if (first == entries_.end() || second == entries_.end() ||
-      first->second.record.state != FrameState::kEvaluated ||
-      second->second.record.state != FrameState::kEvaluated) {
-    return false;
-  }
-  const std::vector<std::int64_t>& first_ids = first->second.carried_ids;
-  const std::vector<std::int64_t>& second_ids = second->second.carried_ids;
-  if (!first->second.true_ids && !second->second.true_ids) {
-    ++detected_pair_counts_.without_ids;
-    return true;
-  }
-  try {
-    detected_pair_records_.push_back(evaluator_.addDetectedPair(matches, first_ids, second_ids));
-    ++detected_pair_counts_.evaluated;
-    update->detected_pairs.push_back(detected_pair_records_.back());
-  } catch (const Error& error) {
-    ++detected_pair_counts_.skipped;
-    note(error.what(), update);
-  }
-  return true;
-}
-
 void PassEvaluation::hold(Stamp stamp) {
   held_.insert(stamp);
   if (held_.size() <= options_.buffer) {
@@ -425,17 +285,23 @@ void PassEvaluation::hold(Stamp stamp) {
   oldest.lines.reset();
   oldest.ground_truth.reset();
   oldest.released = true;
+  letGo(&oldest);
   held_.erase(held_.begin());
+}
+
+void PassEvaluation::countLeftOutDepth(const std::string& text) {
+  ++coverage_.depth_left_out;
+  keepNote(text);
+}
+
+void PassEvaluation::countLeftOutPose(const std::string& text) {
+  ++coverage_.poses_left_out;
+  keepNote(text);
 }
 
 void PassEvaluation::countDroppedFrame(const std::string& text) {
   ++dropped_messages_;
   coverage_.add(FrameState::kDropped);
-  keepNote(text);
-}
-
-void PassEvaluation::countSkippedPair(const std::string& text) {
-  ++pair_counts_.skipped;
   keepNote(text);
 }
 
@@ -453,11 +319,6 @@ void PassEvaluation::keepNote(const std::string& text) {
   } else {
     ++notes_left_out_;
   }
-}
-
-bool PassEvaluation::betweenDetectedLines(const MatchSet& matches) const {
-  return ground_truth_source_.empty() ? matches.lines_source == lines_source_
-                                      : matches.lines_source != ground_truth_source_;
 }
 
 }  // namespace evolin

@@ -1,10 +1,9 @@
 // What a pass has to tell, put together.
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "evolin_ros/evaluation/pass_evaluation.h"
-#include "evolin_ros/metrics/association.h"
-#include "evolin_ros/metrics/track_length.h"
 
 namespace evolin {
 
@@ -18,6 +17,13 @@ void sortByStamp(std::vector<Record>* records) {
   });
 }
 
+void appendRows(const RepeatabilityMetrics& metrics, std::vector<RepeatabilityRow>* rows) {
+  for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
+    const RepeatabilitySetting& setting = metrics.settings()[i];
+    rows->push_back({setting, metrics.pairs(setting.frame_step), metrics.figures(i)});
+  }
+}
+
 }  // namespace
 
 FrameState PassEvaluation::stateByWhatIsMissing(bool has_lines) {
@@ -26,9 +32,24 @@ FrameState PassEvaluation::stateByWhatIsMissing(bool has_lines) {
 
 CoverageCounts PassEvaluation::coverage() const {
   CoverageCounts counts = coverage_;
+  const std::size_t others = imagesOfOthers().size();
+  counts.seen -= others;
+  counts.waiting -= others;
   counts.no_depth = motion_.counts().no_depth;
   counts.no_pose = motion_.counts().no_pose;
+  counts.bad_lines = motion_.counts().bad_lines;
   return counts;
+}
+
+PassSums PassEvaluation::sums() const {
+  return {evaluator_,
+          motion_.repeatability(),
+          motion_.repeatabilityByScore(),
+          motion_.oneToOne(),
+          motion_.bestLocalization(),
+          wants(MetricFamily::kTracks) ? tracks() : TrackReport(),
+          coverage(),
+          poseStep()};
 }
 
 bool PassEvaluation::waiting() const {
@@ -38,7 +59,9 @@ bool PassEvaluation::waiting() const {
   std::optional<Stamp> newest;
   for (const auto& [stamp, entry] : entries_) {
     const bool has_lines = entry.record.lines.has_value();
-    if (!has_lines && entry.record.state == FrameState::kWaiting) {
+    const bool alone = !has_lines && !entry.record.ground_truth;
+    if (!has_lines && entry.record.state == FrameState::kWaiting &&
+        !(alone && standsForAnother(stamp))) {
       return true;
     }
     const bool matched_lines = matches_lines_source_ == ground_truth_source_
@@ -84,7 +107,11 @@ Report PassEvaluation::report(bool complete) const {
   report.detector_timing = summarizeTimes(detector_times_);
   report.associator_timing = summarizeTimes(associator_times_);
   report.frames.reserve(entries_.size());
+  const std::vector<Stamp> of_others = imagesOfOthers();
   for (const auto& [stamp, entry] : entries_) {
+    if (std::binary_search(of_others.begin(), of_others.end(), stamp)) {
+      continue;
+    }
     FrameRecord record = entry.record;
     if (complete && record.state == FrameState::kWaiting) {
       record.state = stateByWhatIsMissing(record.lines.has_value());
@@ -98,6 +125,9 @@ Report PassEvaluation::report(bool complete) const {
   }
   sortByStamp(&report.pair_records);
   report.notes = notes_;
+  if (std::string text = imageOffsetNote(); complete && !text.empty()) {
+    report.notes.push_back(std::move(text));
+  }
   if (notes_left_out_ > 0) {
     report.notes.push_back("and " + std::to_string(notes_left_out_) + " more of these");
   }
@@ -119,13 +149,13 @@ void PassEvaluation::fillHeatmap(Report* report) const {
   report->heatmap.score_thresholds = evaluator_.heatmapThresholds();
   report->heatmap.counts = evaluator_.heatmap();
   report->heatmap.frames = evaluator_.heatmapFrames();
+  report->heatmap.unscored = evaluator_.unscoredHeatmap();
   report->heatmap.pending = heatmaps_pending_;
 }
 
 void PassEvaluation::fillMotion(bool complete, Report* report) const {
   PoseReport& pose = report->pose;
   pose.method = options_.motion.pose_method;
-  pose.frame_step = options_.frame_step;
   pose.auc_thresholds = options_.auc_thresholds;
   pose.errors = evaluator_.pose();
   pose.pending = poses_pending_;
@@ -137,6 +167,9 @@ void PassEvaluation::fillMotion(bool complete, Report* report) const {
     // What still waits will wait for ever; the pass itself stays open for what may come all the
     // same.
     MotionEvaluation finished = motion_;
+    for (const Stamp image : imagesOfOthers()) {
+      finished.removeImage(image);
+    }
     MotionUpdate rest = finished.finish();
     std::vector<RepeatabilityRecord>& records = report->repeatability.records;
     records.insert(records.end(), rest.repeatability.begin(), rest.repeatability.end());
@@ -149,6 +182,21 @@ void PassEvaluation::fillMotion(bool complete, Report* report) const {
   }
   sortByStamp(&report->repeatability.records);
   sortByStamp(&pose.records);
+  // Only now is it known which images lie between.
+  std::map<Stamp, int> places;
+  int place = 0;
+  const std::vector<Stamp> of_others = imagesOfOthers();
+  for (const auto& [stamp, entry] : entries_) {
+    if (!std::binary_search(of_others.begin(), of_others.end(), stamp)) {
+      places.emplace_hint(places.end(), stamp, place++);
+    }
+  }
+  std::set<int> steps;
+  for (PoseRecord& record : pose.records) {
+    record.frame_step = places.at(record.stamp) - places.at(record.first_stamp);
+    steps.insert(record.frame_step);
+  }
+  pose.frame_step = steps.size() == 1 ? *steps.begin() : 0;
 }
 
 void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* report) const {
@@ -158,69 +206,20 @@ void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* r
   repeatability.depth = motion.hasDepth();
   repeatability.poses = motion.hasPoses();
   repeatability.nearest_depth_miss = motion.nearestDepthMiss();
-  const RepeatabilityMetrics& metrics = motion.repeatability();
-  for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
-    const RepeatabilitySetting& setting = metrics.settings()[i];
-    repeatability.rows.push_back({setting, metrics.pairs(setting.frame_step), metrics.figures(i)});
+  appendRows(motion.repeatability(), &repeatability.rows);
+  if (motion.repeatabilityByScore()) {
+    appendRows(*motion.repeatabilityByScore(), &repeatability.rows);
   }
   repeatability.one_to_one = motion.oneToOne();
   repeatability.best_localization = motion.bestLocalization();
   repeatability.best_count = options_.motion.best_localization.count;
   report->coverage.no_depth = motion.counts().no_depth;
   report->coverage.no_pose = motion.counts().no_pose;
+  report->coverage.bad_lines = motion.counts().bad_lines;
   report->coverage.heatmap_skipped = coverage_.heatmap_skipped;
   report->coverage.pose_skipped = coverage_.pose_skipped;
-}
-
-TrackReport PassEvaluation::tracks() const {
-  TrackReport report;
-  bool ids = false;
-  bool matches = false;
-  for (const auto& [stamp, entry] : entries_) {
-    ids = ids || !entry.track_ids.empty();
-    matches = matches || entry.earlier_matches.has_value();
-  }
-  if (!ids && !matches) {
-    report.reason = "not evaluated: the detected lines carry no track ids and are not matched";
-    return report;
-  }
-  report.from_matches = !ids;
-  TrackMetrics metrics;
-  TrackBuilder builder;
-  std::optional<Stamp> previous;
-  std::size_t previous_count = 0;
-  for (const auto& [stamp, entry] : entries_) {
-    if (!entry.record.lines) {
-      continue;
-    }
-    std::vector<std::int64_t> track_ids = entry.track_ids;
-    if (!ids) {
-      IndexPairs pairs;
-      if (entry.earlier_matches && entry.earlier_matches->first_stamp == previous) {
-        for (const IndexPair& pair : toIndexPairs(entry.earlier_matches->matches)) {
-          if (pair.first < static_cast<std::int64_t>(previous_count) &&
-              pair.second < static_cast<std::int64_t>(entry.line_count)) {
-            pairs.push_back(pair);
-          }
-        }
-      }
-      track_ids = builder.addFrame(entry.line_count, pairs);
-    } else if (track_ids.empty()) {
-      track_ids.assign(entry.line_count, kNoId);
-    }
-    metrics.addFrame(track_ids, entry.carried_ids);
-    previous = stamp;
-    previous_count = entry.line_count;
-  }
-  report.frames = metrics.frames();
-  report.tracks = metrics.tracks();
-  report.mean_length = metrics.meanLength();
-  report.median_length = metrics.medianLength();
-  report.longest = metrics.longest();
-  report.observations = metrics.observations();
-  report.identity_switches = metrics.identitySwitches();
-  report.drifts = metrics.drifts();
-  return report;
+  report->coverage.depth_left_out = coverage_.depth_left_out;
+  report->coverage.poses_left_out = coverage_.poses_left_out;
 }
 
 }  // namespace evolin

@@ -86,6 +86,17 @@ Json heatmapJson(const Report& report) {
                        {"ground_truth", counts.ground_truth}};
     entries.push_back(std::move(entry));
   }
+  if (heatmap.unscored.frames > 0) {
+    const Classification& counts = heatmap.unscored.counts;
+    object["unscored"] = {{"frames", heatmap.unscored.frames + heatmap.unscored.empty_frames},
+                          {"precision", counts.precision()},
+                          {"recall", counts.recall()},
+                          {"f_score", counts.fScore()},
+                          {"counts",
+                           {{"true_positives", counts.true_positives},
+                            {"predicted", counts.predicted},
+                            {"ground_truth", counts.ground_truth}}}};
+  }
   if (!heatmap.score_thresholds.empty()) {
     const HeatmapSummary summary = summarizeHeatmap(heatmap.counts);
     object["average_precision"] = reason.empty() ? Json(summary.average_precision) : Json(nullptr);
@@ -106,6 +117,9 @@ Json repeatabilityJson(const Report& report) {
                   {"pairs", row.pairs},
                   {"repeatability", nullptr},
                   {"localization_error", nullptr}};
+    if (row.setting.score_threshold) {
+      entry["score_threshold"] = *row.setting.score_threshold;
+    }
     if (row.figures) {
       entry["repeatability"] = row.figures->repeatability;
       entry["localization_error"] = row.figures->localization_error;
@@ -134,7 +148,9 @@ Json repeatabilityJson(const Report& report) {
   return {{"frames", repeatability.counts.frames},
           {"no_depth", repeatability.counts.no_depth},
           {"no_pose", repeatability.counts.no_pose},
+          {"bad_lines", repeatability.counts.bad_lines},
           {"late", repeatability.counts.late},
+          {"unscored_pairs", repeatability.counts.unscored_pairs},
           {"entries", std::move(entries)},
           {"one_to_one", std::move(one)},
           {"best_localization", std::move(localization)}};
@@ -169,7 +185,7 @@ Json poseJson(const Report& report) {
   const PoseErrorMetrics& errors = pose.errors;
   const MotionCounts& counts = report.repeatability.counts;
   Json object = {{"strategy", toString(pose.method.strategy)},
-                 {"step", pose.frame_step},
+                 {"step", pose.frame_step > 0 ? Json(pose.frame_step) : Json(nullptr)},
                  {"pairs", errors.pairs()},
                  {"failed", errors.failed()},
                  {"ill_conditioned", errors.illConditioned()},
@@ -195,6 +211,9 @@ Json poseJson(const Report& report) {
   }
   object["not_evaluated"] = {{"no_depth", counts.pairs_no_depth},
                              {"no_pose", counts.pairs_no_pose},
+                             {"no_lines", counts.pairs_no_lines},
+                             {"bad_lines", counts.pairs_bad_lines},
+                             {"left_buffer", counts.pairs_left_buffer},
                              {"skipped", counts.pairs_skipped + report.coverage.pose_skipped}};
   return object;
 }
@@ -202,6 +221,7 @@ Json poseJson(const Report& report) {
 Json tracksJson(const Report& report) {
   const TrackReport& tracks = report.tracks;
   Json object = {{"frames", tracks.frames},
+                 {"late", tracks.late},
                  {"from", tracks.from_matches ? "matches" : "ids"},
                  {"tracks", tracks.tracks},
                  {"mean_length", optionalOrNull(tracks.mean_length)},

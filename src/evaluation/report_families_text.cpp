@@ -47,11 +47,21 @@ std::string heatmapSection(const Report& report) {
   const HeatmapReport& heatmap = report.heatmap;
   std::string text = "\n## Detection on pixels (heatmap)\n\n";
   const std::string reason = whyNoHeatmap(report);
-  if (!reason.empty()) {
+  const UnscoredHeatmap& unscored = heatmap.unscored;
+  if (!reason.empty() && unscored.frames == 0) {
     return text + reason + "\n";
   }
   text +=
       "| score above | precision | recall | F | frames |\n| --- | ---: | ---: | ---: | ---: |\n";
+  if (unscored.frames > 0) {
+    text +=
+        "| (lines without scores) | " +
+        ratios(unscored.counts.precision(), unscored.counts.recall(), unscored.counts.fScore()) +
+        " | " + std::to_string(unscored.frames + unscored.empty_frames) + " |\n";
+  }
+  if (!reason.empty()) {
+    return text + "\n" + reason + "\n";
+  }
   for (std::size_t i = 0; i < heatmap.counts.size(); ++i) {
     const Classification& counts = heatmap.counts[i];
     text += "| " +
@@ -85,12 +95,16 @@ std::string repeatabilitySection(const Report& report) {
       "| step | distance | repeatability | localisation error | pairs |\n"
       "| ---: | --- | ---: | ---: | ---: |\n";
   for (const RepeatabilityRow& row : repeatability.rows) {
-    text += "| " + std::to_string(row.setting.frame_step) + " | " + toString(row.setting.distance) +
-            " " + formatDouble(row.setting.distance_threshold) + " | " +
-            (row.figures ? percentText(row.figures->repeatability) + " | " +
-                               fixedText(row.figures->localization_error, 2)
-                         : whyNoRepeatability(report, row) + " | -") +
-            " | " + std::to_string(row.pairs) + " |\n";
+    text +=
+        "| " + std::to_string(row.setting.frame_step) + " | " + toString(row.setting.distance) +
+        " " + formatDouble(row.setting.distance_threshold) +
+        (row.setting.score_threshold ? ", score above " + formatDouble(*row.setting.score_threshold)
+                                     : "") +
+        " | " +
+        (row.figures ? percentText(row.figures->repeatability) + " | " +
+                           fixedText(row.figures->localization_error, 2)
+                     : whyNoRepeatability(report, row) + " | -") +
+        " | " + std::to_string(row.pairs) + " |\n";
   }
   const OneToOneRepeatability& one_to_one = repeatability.one_to_one;
   if (one_to_one.visible() > 0) {
@@ -123,8 +137,10 @@ std::string detectedAssociationSection(const Report& report) {
 
 std::string poseSection(const Report& report) {
   const PoseErrorMetrics& errors = report.pose.errors;
-  std::string text = "\n## Relative pose (strategy `" + toString(report.pose.method.strategy) +
-                     "`, step " + std::to_string(report.pose.frame_step) + ")\n\n";
+  std::string text =
+      "\n## Relative pose (strategy `" + toString(report.pose.method.strategy) + "`" +
+      (report.pose.frame_step > 0 ? ", step " + std::to_string(report.pose.frame_step) : "") +
+      ")\n\n";
   const std::string reason = whyNoPose(report);
   if (!reason.empty()) {
     return text + reason + "\n";
@@ -168,20 +184,26 @@ std::string tracksSection(const Report& report) {
 
 std::string repeatabilityToCsv(const Report& report) {
   std::string text =
-      "first_stamp,stamp,step,distance,threshold,lines,found_forward,found_backward,repeatability,"
+      "first_stamp,stamp,step,distance,threshold,score_threshold,lines,found_forward,found_"
+      "backward,repeatability,"
       "localization_error,one_to_one_by_count,one_to_one_by_length,best_localization_error\n";
   for (const RepeatabilityRecord& record : report.repeatability.records) {
-    std::size_t index = 0;
+    std::size_t of_all = 0;
+    std::size_t by_score = 0;
     for (const RepeatabilityRow& row : report.repeatability.rows) {
-      if (row.setting.frame_step != record.frame_step || index >= record.pair.size()) {
+      const std::optional<double>& score = row.setting.score_threshold;
+      const std::vector<PairRepeatability>& pairs = score ? record.by_score : record.pair;
+      std::size_t& index = score ? by_score : of_all;
+      if (row.setting.frame_step != record.frame_step || index >= pairs.size()) {
         continue;
       }
-      const PairRepeatability& pair = record.pair[index++];
+      const PairRepeatability& pair = pairs[index++];
       text += formatStamp(record.first_stamp) + "," + formatStamp(record.stamp) + "," +
               std::to_string(record.frame_step) + "," + toString(row.setting.distance) + "," +
-              formatDouble(row.setting.distance_threshold) + "," + std::to_string(pair.lines) +
-              "," + std::to_string(pair.forward.count) + "," + std::to_string(pair.backward.count) +
-              "," + formatDouble(pair.repeatability()) + "," +
+              formatDouble(row.setting.distance_threshold) + "," +
+              (score ? formatDouble(*score) : "") + "," + std::to_string(pair.lines) + "," +
+              std::to_string(pair.forward.count) + "," + std::to_string(pair.backward.count) + "," +
+              formatDouble(pair.repeatability()) + "," +
               formatDouble(pair.localizationError(report.protocol)) + ",";
       // Those beyond the article are of the first step alone.
       const bool first_step =
@@ -198,12 +220,12 @@ std::string repeatabilityToCsv(const Report& report) {
 
 std::string posesToCsv(const Report& report) {
   std::string text =
-      "first_stamp,stamp,matches,with_depth,inliers,rotation_error_deg,translation_angle_deg,"
+      "first_stamp,stamp,step,matches,with_depth,inliers,rotation_error_deg,translation_angle_deg,"
       "translation_error_m,moved_m,ill_conditioned,reason\n";
   for (const PoseRecord& record : report.pose.records) {
     text += formatStamp(record.first_stamp) + "," + formatStamp(record.stamp) + "," +
-            std::to_string(record.matched) + "," + std::to_string(record.with_depth) + "," +
-            std::to_string(record.inliers) + ",";
+            std::to_string(record.frame_step) + "," + std::to_string(record.matched) + "," +
+            std::to_string(record.with_depth) + "," + std::to_string(record.inliers) + ",";
     const std::optional<PoseErrors>& errors = record.pair.errors;
     text += errors
                 ? formatDouble(errors->rotation) + "," + formatDouble(errors->translation_angle) +

@@ -1,4 +1,5 @@
 // The report as strict JSON: no NaN, no infinity; null has a reason beside it.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "evolin_ros/base/version.h"
@@ -36,8 +37,11 @@ Json coverageJson(const Report& report) {
                  {"skipped", coverage.skipped},
                  {"no_depth", coverage.no_depth},
                  {"no_pose", coverage.no_pose},
+                 {"bad_lines", coverage.bad_lines},
                  {"heatmap_skipped", coverage.heatmap_skipped},
-                 {"pose_skipped", coverage.pose_skipped}};
+                 {"pose_skipped", coverage.pose_skipped},
+                 {"depth_left_out", coverage.depth_left_out},
+                 {"poses_left_out", coverage.poses_left_out}};
   if (report.input_images) {
     object["input_images"] = *report.input_images;
   } else {
@@ -119,6 +123,47 @@ Json timingJson(const TimingSummary& timing) {
           {"rate_hz", timing.rate}};
 }
 
+Json intervalJson(const FigureInterval& figure) {
+  Json object = {{"family", figure.family}, {"figure", figure.figure}};
+  if (figure.step) {
+    object["step"] = *figure.step;
+  }
+  if (figure.distance) {
+    object["distance"] = toString(*figure.distance);
+  }
+  if (figure.threshold) {
+    object["threshold"] = *figure.threshold;
+  }
+  if (figure.score_threshold) {
+    object["score_threshold"] = *figure.score_threshold;
+  }
+  const ConfidenceInterval& interval = figure.interval;
+  object["low"] = std::isfinite(interval.low) ? Json(interval.low) : Json(nullptr);
+  object["high"] = std::isfinite(interval.high) ? Json(interval.high) : Json(nullptr);
+  if (std::isnan(interval.low) || std::isnan(interval.high)) {
+    object["reason"] = "the figure is undefined, or has no bounded values, in the resamples";
+  } else if (std::isinf(interval.low) || std::isinf(interval.high)) {
+    object["reason"] = "infinite: half of the pairs of a resample have no estimate";
+  }
+  return object;
+}
+
+Json confidenceJson(const Report& report) {
+  if (!report.confidence) {
+    return {{"intervals", nullptr}, {"reason", "no intervals were asked for with this report"}};
+  }
+  const BootstrapOptions& options = report.confidence->options;
+  Json intervals = Json::array();
+  for (const FigureInterval& figure : report.confidence->figures) {
+    intervals.push_back(intervalJson(figure));
+  }
+  return {{"level", options.level},
+          {"resamples", options.resamples},
+          {"block_length", options.block_length},
+          {"seed", options.seed},
+          {"intervals", std::move(intervals)}};
+}
+
 }  // namespace
 
 std::string toJson(const Report& report) {
@@ -147,6 +192,7 @@ std::string toJson(const Report& report) {
   if (wants(MetricFamily::kTracks)) {
     root["tracks"] = tracksJson(report);
   }
+  root["confidence"] = confidenceJson(report);
   root["timing"] = {{"detector", timingJson(report.detector_timing)},
                     {"associator", timingJson(report.associator_timing)}};
   root["notes"] = report.notes;

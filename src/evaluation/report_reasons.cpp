@@ -83,6 +83,9 @@ std::string whyNoDetectedAssociation(const Report& report) {
 }
 
 std::string whyNoHeatmap(const Report& report) {
+  if (report.heatmap.lacksScores()) {
+    return "not evaluated by score: the lines carry no scores";
+  }
   if (report.heatmap.frames > 0) {
     return {};
   }
@@ -105,7 +108,11 @@ std::string whyNoRepeatability(const Report& report, const RepeatabilityRow& row
   if (counts.frames == 0) {
     return "not evaluated: no frame had lines, depth and a pose (" +
            std::to_string(counts.no_depth) + " without depth" + nearestMiss(report.repeatability) +
-           ", " + std::to_string(counts.no_pose) + " without a pose)";
+           ", " + std::to_string(counts.no_pose) + " without a pose, " +
+           std::to_string(counts.bad_lines) + " with lines that are not finite)";
+  }
+  if (row.setting.score_threshold && counts.unscored_pairs > 0) {
+    return "not evaluated: the lines carry no scores";
   }
   return "not evaluated: no two frames " + std::to_string(row.setting.frame_step) +
          " apart both had lines, depth and a pose";
@@ -123,14 +130,19 @@ std::string whyNoPose(const Report& report) {
     return missing;
   }
   const MotionCounts& counts = report.repeatability.counts;
-  if (counts.pairs_no_depth + counts.pairs_no_pose + counts.pairs_skipped == 0) {
+  if (counts.pairs_no_depth + counts.pairs_no_pose + counts.pairs_no_lines +
+          counts.pairs_bad_lines + counts.pairs_left_buffer + counts.pairs_skipped ==
+      0) {
     return report.coverage.pose_skipped > 0 ? "not evaluated: all pairs were skipped"
                                             : "not evaluated: no matches were received";
   }
   return "not evaluated: no matched pair of frames had depth and poses (" +
          std::to_string(counts.pairs_no_depth) + " without depth" +
          nearestMiss(report.repeatability) + ", " + std::to_string(counts.pairs_no_pose) +
-         " without a pose, " + std::to_string(counts.pairs_skipped) + " unusable)";
+         " without a pose, " + std::to_string(counts.pairs_no_lines) + " without lines, " +
+         std::to_string(counts.pairs_bad_lines) + " with lines that are not finite, " +
+         std::to_string(counts.pairs_left_buffer) + " of frames that had left the buffer, " +
+         std::to_string(counts.pairs_skipped) + " unusable)";
 }
 
 }  // namespace evolin

@@ -44,8 +44,11 @@ std::string coverageLine(const Report& report) {
       {"skipped", coverage.skipped},
       {"without depth", coverage.no_depth},
       {"without a pose", coverage.no_pose},
+      {"with lines that are not finite", coverage.bad_lines},
       {"left out of the heatmap", coverage.heatmap_skipped},
-      {"pairs left out of relative pose", coverage.pose_skipped}};
+      {"pairs left out of relative pose", coverage.pose_skipped},
+      {"depth images without a stamp", coverage.depth_left_out},
+      {"poses without a stamp", coverage.poses_left_out}};
   for (const auto& [name, count] : reasons) {
     if (count > 0) {
       text += "; " + std::to_string(count) + " " + name;

@@ -109,6 +109,14 @@ DetectedPairRecord SequenceEvaluator::addDetectedPair(const MatchSet& matches,
 }
 
 void SequenceEvaluator::addHeatmap(const HeatmapRecord& record) {
+  if (!record.scored.value_or(false)) {
+    // Without lines every threshold's counts are those of all lines.
+    unscored_heatmap_.counts += record.counts.at(0);
+    ++(record.scored ? unscored_heatmap_.frames : unscored_heatmap_.empty_frames);
+  }
+  if (record.scored == false) {
+    return;
+  }
   for (std::size_t i = 0; i < heatmap_.size(); ++i) {
     heatmap_[i] += record.counts.at(i);
   }

@@ -14,6 +14,9 @@ namespace {
 /// Results that a front-end of several threads may give out before the first one.
 constexpr std::size_t kMostSwapped = 8;
 
+/// Stamps of an input that are known again when they come a second time.
+constexpr std::size_t kLeastRemembered = 1000;
+
 std::string secondsText(Stamp stamp) { return formatStamp(stamp) + " s"; }
 
 /// Which publishers an input has is not known here, but two methods on one topic give themselves
@@ -47,6 +50,10 @@ std::optional<int> StreamEvaluator::passOf(Input input, Key key) {
   }
   follower.last = key;
   follower.received.insert(key);
+  // What is before all of so many is a jump, whether it was there or not.
+  if (follower.received.size() > std::max(options_.buffer, kLeastRemembered)) {
+    follower.received.erase(follower.received.begin());
+  }
   return follower.pass;
 }
 
@@ -84,14 +91,14 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& 
     newest_ = *pass;
     noted_.clear();
     update->new_pass = true;
+    previous_changed_ = true;
     const auto opened = passes_.emplace(newest_, PassEvaluation(options_)).first;
     if (camera_) {
       update->append(marked(opened->second.setCamera(*camera_), newest_));
     }
     while (passes_.begin()->first < newest_ - 1) {
       passes_.begin()->second.skipPending();
-      released_ = passes_.begin()->second.report(true);
-      released_->pass = passes_.begin()->first;
+      released_.emplace(passes_.begin()->first, std::move(passes_.begin()->second));
       passes_.erase(passes_.begin());
     }
   }
@@ -108,21 +115,32 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& 
 
 void StreamEvaluator::drop(Input input, Fault fault, const std::string& what,
                            EvaluationUpdate* update) {
-  // Images, depth and poses are no result: what they lack shows where it is missed.
-  if (input == kImage || input == kDepth || input == kPose) {
+  // Images, depth and poses are no result: what they lack shows where it is missed. Without stamps,
+  // though, a whole stream of depth or poses would vanish.
+  if (input == kImage || ((input == kDepth || input == kPose) && fault != kNoStamp)) {
     return;
   }
   constexpr const char* kNames[kInputs] = {"images",  "lines", "ground truth",
                                            "matches", "depth", "poses"};
-  const std::string text = what + " is left out; it and others of its kind count as " +
-                           (input == kMatches ? "skipped pairs" : "dropped");
+  constexpr const char* kCounts[kInputs] = {
+      "", "dropped", "dropped", "skipped pairs", "depth_left_out", "poses_left_out"};
+  const std::string text =
+      what + " is left out; it and others of its kind count as " + kCounts[input];
   const bool is_new = noted_.insert({input, fault}).second;
   const std::string note = is_new ? std::string(kNames[input]) + ": " + text : "";
   PassEvaluation& newest = passes_.at(newest_);
-  if (input == kMatches) {
-    newest.countSkippedPair(note);
-  } else {
-    newest.countDroppedFrame(note);
+  switch (input) {
+    case kMatches:
+      newest.countSkippedPair(note);
+      break;
+    case kDepth:
+      newest.countLeftOutDepth(note);
+      break;
+    case kPose:
+      newest.countLeftOutPose(note);
+      break;
+    default:
+      newest.countDroppedFrame(note);
   }
   if (told_.insert({input, fault}).second) {
     update->warnings.push_back(text);
@@ -143,6 +161,7 @@ EvaluationUpdate StreamEvaluator::add(Input input, Key key, const std::string& s
   EvaluationUpdate update;
   if (PassEvaluation* pass = enter(input, key, source, &update)) {
     update.append(marked(add(pass), followers_[input].pass));
+    previous_changed_ = previous_changed_ || followers_[input].pass != newest_;
   }
   return update;
 }
@@ -191,12 +210,17 @@ PassEvaluation* StreamEvaluator::passOf(std::uint64_t generation, int pass) {
 
 EvaluationUpdate StreamEvaluator::addResult(const EvaluationResult& result) {
   PassEvaluation* pass = passOf(result.generation, result.pass);
-  return pass == nullptr ? EvaluationUpdate() : pass->addResult(result);
+  if (pass == nullptr) {
+    return {};
+  }
+  previous_changed_ = previous_changed_ || result.pass != newest_;
+  return pass->addResult(result);
 }
 
 void StreamEvaluator::skip(const EvaluationTask& task) {
   if (PassEvaluation* pass = passOf(task.generation, task.pass)) {
     pass->skip(task);
+    previous_changed_ = previous_changed_ || task.pass != newest_;
   }
 }
 
@@ -206,25 +230,40 @@ Report StreamEvaluator::report(bool complete) const {
   return report;
 }
 
-std::optional<Report> StreamEvaluator::previousReport() const {
+const PassEvaluation* StreamEvaluator::previous() const {
   const auto found = passes_.find(newest_ - 1);
-  if (found == passes_.end()) {
+  return found == passes_.end() ? nullptr : &found->second;
+}
+
+std::optional<Report> StreamEvaluator::previousReport() const {
+  if (previous() == nullptr) {
     return std::nullopt;
   }
-  Report report = found->second.report(true);
+  Report report = previous()->report(true);
   report.pass = newest_ - 1;
   return report;
 }
 
-std::optional<Report> StreamEvaluator::takeReleasedReport() {
+std::optional<std::pair<int, PassEvaluation>> StreamEvaluator::takeReleased() {
   return std::exchange(released_, std::nullopt);
 }
 
-bool StreamEvaluator::waiting() const {
-  return current().waiting() || std::any_of(passes_.begin(), passes_.end(), [](const auto& pass) {
-           return pass.second.hasPendingTasks();
-         });
+std::optional<Report> StreamEvaluator::takeReleasedReport() {
+  const std::optional<std::pair<int, PassEvaluation>> released = takeReleased();
+  if (!released) {
+    return std::nullopt;
+  }
+  Report report = released->second.report(true);
+  report.pass = released->first;
+  return report;
 }
+
+bool StreamEvaluator::hasPendingTasks() const {
+  return std::any_of(passes_.begin(), passes_.end(),
+                     [](const auto& pass) { return pass.second.hasPendingTasks(); });
+}
+
+bool StreamEvaluator::waiting() const { return current().waiting() || hasPendingTasks(); }
 
 void StreamEvaluator::reset() {
   const std::uint64_t generation = generation_ + 1;

@@ -45,13 +45,14 @@ constexpr int kExchangeRounds = 8;
 constexpr std::size_t kExchanges = 8;   ///< a round
 constexpr double kLeastSaving = 0.125;  ///< in free costs, to try an exchange
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
-constexpr std::size_t kUsualArcs = 32;  ///< memory to begin with, a bidder
+constexpr std::size_t kBiddersPerCheck = 64;  ///< of the deadline
+constexpr std::size_t kUsualArcs = 32;        ///< memory to begin with, a bidder
 
 class GainProof {
  public:
   GainProof(const PixelGrid& grid, const IndexedCells& ground_truth,
             const std::vector<std::vector<Cell>>& added, const NestedMatching& matching,
-            double free_cost)
+            double free_cost, const Deadline& deadline)
       : grid_(grid),
         ground_truth_(ground_truth),
         added_(added),
@@ -59,7 +60,7 @@ class GainProof {
         free_cost_(free_cost),
         sites_(ground_truth.size()),
         parts_(ground_truth.size()) {
-    listArcs();
+    listArcs(deadline);
   }
 
   std::vector<std::uint32_t> run(const Deadline& deadline) {
@@ -81,7 +82,7 @@ class GainProof {
   }
 
  private:
-  void listArcs() {
+  void listArcs(const Deadline& deadline) {
     const auto reach = static_cast<std::size_t>(grid_.reach());
     lengths_.resize(reach * reach + 1);
     for (std::size_t squared = 0; squared < lengths_.size(); ++squared) {
@@ -91,6 +92,9 @@ class GainProof {
     lists_.arcs.reserve(bidders * kUsualArcs);
     std::vector<std::size_t> ends(bidders);
     for (std::size_t bidder = 0; bidder < bidders; ++bidder) {
+      if (bidder % kBiddersPerCheck == 0) {
+        deadline.check();
+      }
       const std::uint32_t root = parts_.find(matching_.partners[bidder]);
       ground_truth_.set().forEachNear(
           grid_, matching_.predicted[bidder], [&](Cell cell, std::uint32_t squared) {
@@ -277,7 +281,7 @@ std::vector<std::uint32_t> findUnproven(const PixelGrid& grid, const IndexedCell
                                         const std::vector<std::vector<Cell>>& added,
                                         const NestedMatching& matching, double free_cost,
                                         const Deadline& deadline) {
-  return GainProof(grid, ground_truth, added, matching, free_cost).run(deadline);
+  return GainProof(grid, ground_truth, added, matching, free_cost, deadline).run(deadline);
 }
 
 }  // namespace evolin

@@ -101,7 +101,9 @@ HeatmapSummary summarizeHeatmap(const std::vector<Classification>& counts) {
 }
 
 HeatmapMetrics::HeatmapMetrics(HeatmapOptions options)
-    : thresholds_(std::move(options.score_thresholds)), frame_budget_(options.frame_budget) {
+    : thresholds_(std::move(options.score_thresholds)),
+      frame_budget_(options.frame_budget),
+      stop_(options.stop) {
   for (const double threshold : thresholds_) {
     if (std::isnan(threshold)) {
       throw Error("score threshold nan: expected a number");
@@ -119,11 +121,13 @@ HeatmapMetrics::Frame HeatmapMetrics::measure(std::uint32_t frame_number,
                                               const std::string& frame_name, ImageSize size,
                                               const LineSegments& predicted,
                                               const LineSegments& ground_truth) const {
-  const Deadline deadline = Deadline::after(frame_budget_);
+  Deadline deadline = Deadline::after(frame_budget_);
+  deadline.stopOn(stop_);
   checkFrame(frame_name, size, predicted, ground_truth, !thresholds_.empty());
   Pixels truth;
   Canvas truth_canvas(size);
   for (const LineSegment& line : ground_truth) {
+    deadline.check();
     truth_canvas.draw(line, &truth);
   }
   // A line shows up at the highest threshold below its score, and at all that follow.
@@ -143,6 +147,7 @@ HeatmapMetrics::Frame HeatmapMetrics::measure(std::uint32_t frame_number,
   Canvas canvas(size);
   for (std::size_t setting = 0; setting < settings(); ++setting) {
     for (const LineSegment* line : shown[setting]) {
+      deadline.check();
       canvas.draw(*line, &added[setting]);
     }
   }
@@ -172,7 +177,8 @@ HeatmapOutcome HeatmapMetrics::addFrame(std::uint32_t frame_number, const std::s
     addToSums(*frames_.insert(place, std::move(frame)));
     return HeatmapOutcome::kAdded;
   } catch (const DeadlineError&) {
-    return HeatmapOutcome::kOverBudget;
+    const bool stopped = stop_ != nullptr && *stop_;
+    return stopped ? HeatmapOutcome::kStopped : HeatmapOutcome::kOverBudget;
   }
 }
 

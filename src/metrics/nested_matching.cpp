@@ -48,6 +48,7 @@ class NestedMatcher {
   /// Takes away from `waiting` what finds a free partner within reach, shortest pairs first.
   void matchNearestFirst(std::vector<Cell>* waiting) {
     for (const PixelGrid::DiscCell& place : grid_.nearestFirst()) {
+      deadline_.check();
       std::size_t kept = 0;
       for (const Cell cell : *waiting) {
         const Cell partner = cell + place.offset;

@@ -45,10 +45,15 @@ void requireRule(const PixelMatchingRule& rule) {
 }
 
 /// The pixels of `pixels` with ground truth within reach; the others never match.
-std::vector<Cell> cellsNear(const PixelGrid& grid, const CellSet& truth, const Pixels& pixels) {
+std::vector<Cell> cellsNear(const PixelGrid& grid, const CellSet& truth, const Pixels& pixels,
+                            const Deadline& deadline) {
+  constexpr std::size_t kPixelsPerCheck = 4096;
   std::vector<Cell> cells;
-  for (const Pixel& pixel : pixels) {
-    const Cell cell = grid.cell(pixel);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (i % kPixelsPerCheck == 0) {
+      deadline.check();
+    }
+    const Cell cell = grid.cell(pixels[i]);
     if (truth.anyNear(grid, cell)) {
       cells.push_back(cell);
     }
@@ -126,7 +131,7 @@ std::vector<std::size_t> countMatchedPixels(ImageSize size, const PixelMatchingR
   std::vector<std::vector<Cell>> levels;
   levels.reserve(added.size());
   for (const Pixels& pixels : added) {
-    levels.push_back(cellsNear(grid, truth.set(), pixels));
+    levels.push_back(cellsNear(grid, truth.set(), pixels, deadline));
   }
   deadline.check();
   const NestedMatching matching = matchNested(grid, truth, levels, deadline);

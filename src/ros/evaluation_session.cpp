@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "evolin_ros/evaluation/report_confidence.h"
 #include "node_parameters.h"
 
 namespace evolin::ros_shell {
@@ -64,16 +65,25 @@ void EvaluationSession::onResult(const EvaluationResult& result) {
 }
 
 void EvaluationSession::publishSums(bool now) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<std::mutex> one_at_a_time(sums_mutex_);
   const ros::WallTime begin = ros::WallTime::now();
-  if (inputs_ == published_inputs_ || (!now && begin < next_sums_)) {
-    return;
+  std::optional<PassSums> sums;
+  std_msgs::Header header;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (inputs_ == published_inputs_ || (!now && begin < next_sums_)) {
+      return;
+    }
+    published_inputs_ = inputs_;
+    sums = evaluator_.current().sums();
+    header = last_header_;
   }
-  published_inputs_ = inputs_;
-  metrics_.publishSums(evaluator_, last_header_);
+  metrics_.publishSums(*sums, header);
   // On a long run the sums must not take the inputs' time.
   constexpr double kShare = 20;
-  next_sums_ = ros::WallTime::now() + (ros::WallTime::now() - begin) * kShare;
+  const ros::WallTime end = ros::WallTime::now();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  next_sums_ = end + (end - begin) * kShare;
 }
 
 /// What a report must carry to be understood later.
@@ -99,31 +109,69 @@ std::filesystem::path EvaluationSession::write(Report report) {
   return keeper_.write(std::move(report), newest);
 }
 
-void EvaluationSession::writeQuietly(Report report) {
-  try {
-    write(std::move(report));
-  } catch (const std::exception& error) {
-    if (errors_.due()) {
-      log_.error(error.what());
+/// Under save_mutex_. Reports are put together from copies, so that inputs need not wait.
+void EvaluationSession::writeFinished() {
+  while (true) {
+    std::optional<std::pair<int, PassEvaluation>> finished;
+    bool released = false;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      previous_unwritten_ = evaluator_.takePreviousChanged() || previous_unwritten_;
+      released = !released_.empty();
+      if (released) {
+        finished = std::move(released_.front());
+        released_.pop_front();
+      } else if (previous_unwritten_ && evaluator_.previous() != nullptr) {
+        finished.emplace(evaluator_.pass() - 1, *evaluator_.previous());
+        previous_unwritten_ = false;
+        written_passes_ = finished->first;
+      }
+    }
+    if (!finished) {
+      return;
+    }
+    try {
+      Report report = finished->second.report(true);
+      report.pass = finished->first;
+      write(std::move(report));
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (released) {
+        released_.push_front(std::move(*finished));
+      } else {
+        previous_unwritten_ = true;
+      }
+      throw;
     }
   }
 }
 
-std::filesystem::path EvaluationSession::save(bool complete) {
+EvaluationSession::~EvaluationSession() {
+  try {
+    const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
+    writeFinished();
+  } catch (const std::exception& error) {
+    log_.error(error.what());
+  }
+}
+
+std::filesystem::path EvaluationSession::save(bool complete, bool confidence) {
   // Written in the order in which they are built: a snapshot must not land on a final report.
   const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
-  std::optional<Report> earlier;
-  Report report;
+  writeFinished();
+  std::optional<std::pair<int, PassEvaluation>> newest;
   std::size_t inputs = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    earlier = evaluator_.previousReport();
-    report = evaluator_.report(complete);
+    newest.emplace(evaluator_.pass(), evaluator_.current());
     inputs = inputs_;
   }
-  if (earlier) {
-    write(std::move(*earlier));
+  Report report = newest->second.report(complete);
+  report.pass = newest->first;
+  if (confidence && options_.bootstrap.resamples > 0) {
+    addConfidence(newest->second.evaluator().detection(), options_.bootstrap, &report);
   }
+  newest.reset();
   std::filesystem::path file = write(std::move(report));
   const std::lock_guard<std::mutex> lock(mutex_);
   saved_inputs_ = inputs;
@@ -138,7 +186,7 @@ void EvaluationSession::saveChanges() {
     }
   }
   try {
-    save(false);
+    save(false, false);
   } catch (const std::exception& error) {
     if (errors_.due()) {
       log_.error(error.what());
@@ -148,9 +196,22 @@ void EvaluationSession::saveChanges() {
 
 void EvaluationSession::saveWhenIdle() {
   double idle = 0;
+  bool finished = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    // A pass that is over changes with its last parts: those may wait for the next saving.
+    finished = !released_.empty() || written_passes_ < evaluator_.pass() - 1;
     idle = (ros::WallTime::now() - last_input_).toSec();
+  }
+  if (finished) {
+    try {
+      const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
+      writeFinished();
+    } catch (const std::exception& error) {
+      if (errors_.due()) {
+        log_.error(error.what());
+      }
+    }
   }
   if (idle > options_.idle_timeout) {
     saveChanges();
@@ -159,6 +220,13 @@ void EvaluationSession::saveWhenIdle() {
 
 bool EvaluationSession::drain(const std::function<bool()>& stopped,
                               const std::function<bool()>& first_match_due) {
+  const bool all = waitForTheRest(stopped, first_match_due);
+  giveUpTasks();
+  return all;
+}
+
+bool EvaluationSession::waitForTheRest(const std::function<bool()>& stopped,
+                                       const std::function<bool()>& first_match_due) {
   constexpr double kSettled = 0.3;
   // A slow method's next result may be a few of its longest pauses away.
   constexpr double kPauses = 4;
@@ -179,11 +247,39 @@ bool EvaluationSession::drain(const std::function<bool()>& stopped,
   return false;
 }
 
+void EvaluationSession::giveUpTasks() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!evaluator_.hasPendingTasks()) {
+      return;
+    }
+  }
+  const std::vector<EvaluationTask> left = worker_.cancel();
+  if (left.empty()) {
+    return;
+  }
+  const std::string text =
+      std::to_string(left.size()) +
+      " heatmaps and pose estimates still waited at the end; they are left out and counted in "
+      "coverage: lower ~heatmap_budget, or raise ~drain_timeout";
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const EvaluationTask& task : left) {
+      evaluator_.skip(task);
+    }
+    evaluator_.addNote(text);
+  }
+  log_.warning(text);
+}
+
 void EvaluationSession::reset() {
+  worker_.cancel();  // what it brings is of the figures that are forgotten
   {
     const std::scoped_lock lock(save_mutex_, mutex_);
     evaluator_.reset();
-    worker_.clear();
+    released_.clear();
+    previous_unwritten_ = false;
+    written_passes_ = 0;
     queue_told_ = false;
     keeper_.startOver();
     longest_gap_ = 0;

@@ -6,6 +6,7 @@
 #include <ros/time.h>
 #include <std_msgs/Header.h>
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -35,13 +36,21 @@ class EvaluationSession {
   struct Told {
     std::vector<std::string> notes;
     std::vector<std::string> warnings;
-    std::optional<int> finished_pass;  ///< time jumped back: this pass is over and written
+    std::optional<int> finished_pass;   ///< time jumped back: this pass is over
+    std::optional<Stamp> image_offset;  ///< as EvaluationUpdate's
   };
 
   /// `handle` advertises the topics, `private_handle` names the parameters that reports carry;
   /// `owner` is the nodelet's name. Throws as ReportKeeper.
   EvaluationSession(ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                     const EvaluatorOptions& options, const std::string& owner, Log log);
+
+  /// Writes what passes that are over have not on disk yet.
+  ~EvaluationSession();
+  EvaluationSession(const EvaluationSession&) = delete;
+  EvaluationSession& operator=(const EvaluationSession&) = delete;
+  EvaluationSession(EvaluationSession&&) = delete;
+  EvaluationSession& operator=(EvaluationSession&&) = delete;
 
   const ReportKeeper& keeper() const { return keeper_; }
 
@@ -62,18 +71,20 @@ class EvaluationSession {
   /// go out at a period of their own, unless `now`.
   void publishSums(bool now);
 
-  /// Writes the report, and that of the pass before, whose last parts may still have come. Returns
-  /// the path of report.json; throws Error naming the file.
-  std::filesystem::path save(bool complete);
+  /// Writes the report, and those of passes that are over and changed since they were written.
+  /// Returns the path of report.json; throws Error naming the file. `confidence`: whether its
+  /// figures get their intervals, which may take seconds (the evaluation goes on meanwhile).
+  std::filesystem::path save(bool complete, bool confidence);
 
   /// A snapshot where something new came in; errors go to the log.
   void saveChanges();
 
-  /// The same once nothing has come for the idle timeout.
+  /// The same once nothing has come for the idle timeout; a pass that is over is written at once.
   void saveWhenIdle();
 
   /// Returns once every frame that was heard of has its lines and matches and every task is done,
-  /// or nothing has come for so long that nothing will; false when `stopped` says so before.
+  /// or nothing has come for so long that nothing will; false when `stopped` says so before. Tasks
+  /// that are left then are broken off and counted as skipped.
   /// `first_match_due`: whether matches may come although none has.
   bool drain(const std::function<bool()>& stopped, const std::function<bool()>& first_match_due);
 
@@ -83,40 +94,36 @@ class EvaluationSession {
  private:
   template <class Add>
   Told takeIn(const std_msgs::Header* header, const Add& add) {
-    std::optional<Report> released;
-    std::optional<Report> finished;
     EvaluationUpdate update;
+    std::optional<int> finished;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       noteInput(header != nullptr);
       update = add(&evaluator_);
       handOut(&update);
       if (update.new_pass) {
-        released = evaluator_.takeReleasedReport();
-        finished = evaluator_.previousReport();
+        if (auto released = evaluator_.takeReleased()) {
+          released_.push_back(std::move(*released));
+        }
+        finished = evaluator_.pass() - 1;
       }
       if (header != nullptr) {
         last_header_ = *header;
       }
       metrics_.publish(update, last_header_);
     }
-    Told told{std::move(update.notes), std::move(update.warnings), std::nullopt};
-    if (released) {
-      writeQuietly(std::move(*released));
-    }
-    if (finished) {
-      told.finished_pass = finished->pass;
-      writeQuietly(std::move(*finished));
-    }
-    return told;
+    return {std::move(update.notes), std::move(update.warnings), finished, update.image_offset};
   }
 
   void noteInput(bool of_frame);
   void handOut(EvaluationUpdate* update);
   void onResult(const EvaluationResult& result);
+  bool waitForTheRest(const std::function<bool()>& stopped,
+                      const std::function<bool()>& first_match_due);
+  void giveUpTasks();
   void addProvenance(Report* report) const;
   std::filesystem::path write(Report report);
-  void writeQuietly(Report report);
+  void writeFinished();
 
   EvaluatorOptions options_;
   ros::NodeHandle handle_;
@@ -126,8 +133,12 @@ class EvaluationSession {
   MetricPublishers metrics_;
   WallThrottle errors_;
   std::mutex save_mutex_;  ///< taken before mutex_
+  std::mutex sums_mutex_;  ///< taken before mutex_
   std::mutex mutex_;       ///< guards what follows, up to the blank line
   StreamEvaluator evaluator_;
+  std::deque<std::pair<int, PassEvaluation>> released_;  ///< passes that wait to be written
+  bool previous_unwritten_ = false;
+  int written_passes_ = 0;  ///< passes that are over, at least once on disk
   ros::WallTime last_input_;
   double longest_gap_ = 0;  ///< between two inputs, s of wall time
   std::size_t inputs_ = 0;

@@ -25,11 +25,16 @@ namespace evolin::ros_shell {
 
 class EvaluatorNodelet : public SafeNodelet {
  public:
+  EvaluatorNodelet() = default;
   /// A ~finish that waits is broken off and writes what there is.
   ~EvaluatorNodelet() override {
     stopping_ = true;
     service_spinner_.stop();
   }
+  EvaluatorNodelet(const EvaluatorNodelet&) = delete;
+  EvaluatorNodelet& operator=(const EvaluatorNodelet&) = delete;
+  EvaluatorNodelet(EvaluatorNodelet&&) = delete;
+  EvaluatorNodelet& operator=(EvaluatorNodelet&&) = delete;
 
  private:
   using Trigger = std_srvs::Trigger;
@@ -154,8 +159,10 @@ class EvaluatorNodelet : public SafeNodelet {
       takeBeside(topics::kCameraInfo,
                  [&](StreamEvaluator* evaluator) { return evaluator->setCamera(camera); });
     } catch (const Error& error) {
-      warn(getNodeHandle().resolveName(topics::kCameraInfo) + ": " + error.what() +
-           "; without intrinsics, repeatability and relative pose are not evaluated");
+      std::string text = getNodeHandle().resolveName(topics::kCameraInfo);
+      text.append(": ").append(error.what());
+      text.append("; without intrinsics, repeatability and relative pose are not evaluated");
+      warn(text);
     }
   }
 
@@ -178,10 +185,9 @@ class EvaluatorNodelet : public SafeNodelet {
     const unsigned publishers = subscriber.getNumPublishers();
     watchdog_->heard(name);
     const EvaluationSession::Told told = session_->take(header, add);
-    for (const std::string& warning : told.warnings) {
-      NODELET_WARN("%s (publishers: %u): %s", name.c_str(), publishers, warning.c_str());
-    }
-    tell(name, told);
+    std::string described = name;
+    described.append(" (publishers: ").append(std::to_string(publishers)).append(")");
+    tell(described, told);
     if (told.finished_pass && publishers > 1 && crowded_.insert(name).second) {
       NODELET_WARN(
           "%s has %u publishers and time jumped back to %.6f: where their stamps interleave, "
@@ -191,10 +197,20 @@ class EvaluatorNodelet : public SafeNodelet {
   }
 
   void tell(const std::string& topic, const EvaluationSession::Told& told) {
+    for (const std::string& warning : told.warnings) {
+      NODELET_WARN("%s: %s", topic.c_str(), warning.c_str());
+    }
     for (const std::string& note : told.notes) {
       if (warnings_.due()) {
         NODELET_WARN("%s: %s", topic.c_str(), note.c_str());
       }
+    }
+    if (told.image_offset) {
+      NODELET_WARN(
+          "%s: its stamps are not those of lines and ground truth, the nearest is %.6f s away, "
+          "expected the stamp of its image; it tells of no images then, its intrinsics are taken "
+          "all the same",
+          getNodeHandle().resolveName(topics::kCameraInfo).c_str(), toSeconds(*told.image_offset));
     }
     if (told.finished_pass) {
       if (motion_inputs_) {
@@ -205,7 +221,7 @@ class EvaluatorNodelet : public SafeNodelet {
   }
 
   bool onSave(Trigger::Request& /*request*/, Trigger::Response& response) {
-    return answer(&response, [this] { return session_->save(false); });
+    return answer(&response, [this] { return session_->save(false, true); });
   }
 
   bool onFinish(Trigger::Request& /*request*/, Trigger::Response& response) {
@@ -213,7 +229,7 @@ class EvaluatorNodelet : public SafeNodelet {
         session_->drain([this] { return !ros::ok() || stopping_; },
                         [this] { return !matches_heard_ && matches_.getNumPublishers() > 0; });
     session_->publishSums(true);
-    return answer(&response, [this, complete] { return session_->save(complete); });
+    return answer(&response, [this, complete] { return session_->save(complete, true); });
   }
 
   bool onReset(Trigger::Request& /*request*/, Trigger::Response& response) {

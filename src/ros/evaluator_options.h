@@ -18,6 +18,7 @@ struct EvaluatorOptions {
   std::string world_frame = "world";  ///< of tf, with or without a leading slash
   double depth_factor = 1000;  ///< stored units per metre of 16-bit depth images; TUM's files: 5000
   int task_queue = 1000;       ///< heatmaps and pose estimates that may wait for their turn
+  BootstrapOptions bootstrap;  ///< of the reports of ~finish and ~save_report; 0 resamples: none
   std::string output_dir;      ///< "": a new folder under ~/.ros/evolin_ros
   double save_period = 5;      ///< s of wall time between two savings
   double idle_timeout = 2;     ///< s of wall time without input after which the report is saved

@@ -42,15 +42,12 @@ FrameLinesJoiner::Result FrameLinesJoiner::addLines(const evolin_ros::LineArrayC
   if (last_lines_ && stamp == *last_lines_) {
     return result;
   }
-  if (last_lines_ && stamp < *last_lines_) {
-    result.jumped_back = true;
-    lines_.clear();
-  }
+  pass_ += last_lines_ && stamp < *last_lines_ ? 1 : 0;
   last_lines_ = stamp;
-  lines_.push_back(lines);
+  lines_.push_back({lines, pass_});
   pair(&result);
   if (lines_.size() > capacity_) {
-    const ros::Time oldest = lines_.front()->header.stamp;
+    const ros::Time oldest = lines_.front().message->header.stamp;
     result.problem = "lines at " + formatStamp(fromRos(oldest)) +
                      " have no image of exactly this stamp (" + nearestOffset(oldest, images_) +
                      "); matches need both; raise ~queue_size if images come late";
@@ -63,18 +60,19 @@ void FrameLinesJoiner::pair(Result* result) {
   // Lines whose image has not come hold nobody up once a later pair is complete.
   for (auto lines = lines_.begin(); lines != lines_.end();) {
     const auto image = std::find_if(images_.begin(), images_.end(), [&](const auto& candidate) {
-      return candidate->header.stamp == (*lines)->header.stamp;
+      return candidate->header.stamp == lines->message->header.stamp;
     });
     if (image == images_.end()) {
       ++lines;
       continue;
     }
     if (lines != lines_.begin()) {
-      result->problem = "lines at " + formatStamp(fromRos(lines_.front()->header.stamp)) +
+      result->problem = "lines at " + formatStamp(fromRos(lines_.front().message->header.stamp)) +
                         " and up to the next complete frame are passed over: their image never "
                         "came (raise ~queue_size if images are lost)";
     }
-    result->complete.push_back({*image, *lines});
+    result->complete.push_back({*image, lines->message, lines->pass != paired_pass_});
+    paired_pass_ = lines->pass;
     images_.erase(images_.begin(), std::next(image));
     lines = lines_.erase(lines_.begin(), std::next(lines));
   }

@@ -185,9 +185,6 @@ class LineAssociatorNodelet : public SafeNodelet {
   }
 
   void take(const FrameLinesJoiner::Result& result) {
-    if (result.jumped_back) {
-      NODELET_INFO("time jumped back: frames of the last pass are forgotten");
-    }
     if (!result.problem.empty()) {
       health_->dropped("without their image");
       if (warnings_.due()) {
@@ -196,6 +193,9 @@ class LineAssociatorNodelet : public SafeNodelet {
     }
     const ros::WallTime now = ros::WallTime::now();
     for (const FrameLinesJoiner::Pair& pair : result.complete) {
+      if (pair.begins_pass) {
+        NODELET_INFO("time jumped back: frames of the last pass are forgotten");
+      }
       health_->dropped("dropped to keep up", queue_->push({pair, now}));
     }
   }
@@ -220,9 +220,9 @@ class LineAssociatorNodelet : public SafeNodelet {
     const LineSet set = fromMessage(*pair.lines);
     // Indices of two sources must never meet in one match, nor frames of two passes, nor images
     // of two cameras.
-    if (!window_.empty() &&
-        (window_source_ != set.source || set.stamp <= window_.back()->frame.stamp ||
-         window_rectify_ != settings->options.rectify)) {
+    if (!window_.empty() && (pair.begins_pass || window_source_ != set.source ||
+                             set.stamp <= window_.back()->frame.stamp ||
+                             window_rectify_ != settings->options.rectify)) {
       window_.clear();
     }
     window_rectify_ = settings->options.rectify;

@@ -49,9 +49,37 @@ evolin_ros::RepeatabilityEntry entryOf(const RepeatabilitySetting& setting) {
   entry.step = static_cast<std::uint32_t>(setting.frame_step);
   entry.distance = toString(setting.distance);
   entry.threshold = setting.distance_threshold;
+  entry.score_threshold = setting.score_threshold.value_or(kNotDefined);
   entry.repeatability = kNotDefined;
   entry.localization_error = kNotDefined;
   return entry;
+}
+
+void addEntries(const RepeatabilityMetrics& metrics, evolin_ros::RepeatabilityMetrics* message) {
+  for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
+    evolin_ros::RepeatabilityEntry entry = entryOf(metrics.settings()[i]);
+    if (const std::optional<RepeatabilityFigures> figures = metrics.figures(i)) {
+      entry.repeatability = figures->repeatability;
+      entry.localization_error = figures->localization_error;
+    }
+    message->entries.push_back(entry);
+  }
+}
+
+void addEntries(const std::vector<RepeatabilitySetting>& settings, int frame_step,
+                const std::vector<PairRepeatability>& pairs, Protocol protocol,
+                evolin_ros::RepeatabilityMetrics* message) {
+  auto pair = pairs.begin();
+  for (const RepeatabilitySetting& setting : settings) {
+    if (setting.frame_step != frame_step || pair == pairs.end()) {
+      continue;
+    }
+    evolin_ros::RepeatabilityEntry entry = entryOf(setting);
+    entry.repeatability = pair->repeatability();
+    entry.localization_error = pair->localizationError(protocol);
+    message->entries.push_back(entry);
+    ++pair;
+  }
 }
 
 }  // namespace
@@ -107,42 +135,29 @@ evolin_ros::AssociationMetrics associationMessage(const MetricHead& head,
 
 evolin_ros::RepeatabilityMetrics repeatabilityMessage(
     const MetricHead& head, const RepeatabilityRecord& record,
-    const std::vector<RepeatabilitySetting>& settings, bool first_step) {
+    const std::vector<RepeatabilitySetting>& settings,
+    const std::vector<RepeatabilitySetting>& settings_by_score, bool first_step) {
   auto message = begunWithFrames<evolin_ros::RepeatabilityMetrics>(head);
   message.one_to_one_by_count = first_step ? record.one_to_one_by_count : kNotDefined;
   message.one_to_one_by_length = first_step ? record.one_to_one_by_length : kNotDefined;
   message.best_localization_error =
       first_step && record.best.used > 0 ? record.best.mean_distance : kNotDefined;
-  std::size_t index = 0;
-  for (const RepeatabilitySetting& setting : settings) {
-    if (setting.frame_step != record.frame_step) {
-      continue;
-    }
-    const PairRepeatability& pair = record.pair.at(index++);
-    evolin_ros::RepeatabilityEntry entry = entryOf(setting);
-    entry.repeatability = pair.repeatability();
-    entry.localization_error = pair.localizationError(head.protocol);
-    message.entries.push_back(entry);
-  }
+  addEntries(settings, record.frame_step, record.pair, head.protocol, &message);
+  addEntries(settings_by_score, record.frame_step, record.by_score, head.protocol, &message);
   return message;
 }
 
 evolin_ros::RepeatabilityMetrics repeatabilityMessage(const MetricHead& head,
-                                                      const MotionEvaluation& motion) {
+                                                      const PassSums& sums) {
   auto message = begunWithFrames<evolin_ros::RepeatabilityMetrics>(head);
-  const OneToOneRepeatability& one_to_one = motion.oneToOne();
+  const OneToOneRepeatability& one_to_one = sums.one_to_one;
   const bool visible = one_to_one.visible() > 0;
   message.one_to_one_by_count = visible ? one_to_one.byCount() : kNotDefined;
   message.one_to_one_by_length = visible ? one_to_one.byLength() : kNotDefined;
-  message.best_localization_error = motion.bestLocalization().error().value_or(kNotDefined);
-  const RepeatabilityMetrics& metrics = motion.repeatability();
-  for (std::size_t i = 0; i < metrics.settings().size(); ++i) {
-    evolin_ros::RepeatabilityEntry entry = entryOf(metrics.settings()[i]);
-    if (const std::optional<RepeatabilityFigures> figures = metrics.figures(i)) {
-      entry.repeatability = figures->repeatability;
-      entry.localization_error = figures->localization_error;
-    }
-    message.entries.push_back(entry);
+  message.best_localization_error = sums.best_localization.error().value_or(kNotDefined);
+  addEntries(sums.repeatability, &message);
+  if (sums.repeatability_by_score) {
+    addEntries(*sums.repeatability_by_score, &message);
   }
   return message;
 }
@@ -199,8 +214,11 @@ evolin_ros::Coverage coverageMessage(const std_msgs::Header& header, const Cover
   message.skipped = static_cast<std::uint32_t>(counts.skipped);
   message.no_depth = static_cast<std::uint32_t>(counts.no_depth);
   message.no_pose = static_cast<std::uint32_t>(counts.no_pose);
+  message.bad_lines = static_cast<std::uint32_t>(counts.bad_lines);
   message.heatmap_skipped = static_cast<std::uint32_t>(counts.heatmap_skipped);
   message.pose_skipped = static_cast<std::uint32_t>(counts.pose_skipped);
+  message.depth_left_out = static_cast<std::uint32_t>(counts.depth_left_out);
+  message.poses_left_out = static_cast<std::uint32_t>(counts.poses_left_out);
   return message;
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "evolin_ros/evaluation/pass_evaluation.h"
 #include "evolin_ros/evaluation/report.h"
 
 namespace evolin::ros_shell {
@@ -38,13 +39,13 @@ evolin_ros::AssociationMetrics associationMessage(const MetricHead& head,
 evolin_ros::AssociationMetrics associationMessage(const MetricHead& head,
                                                   const DetectedAssociation& counts);
 
-/// Of one pair; `settings` are those of all steps.
+/// Of one pair; `settings` are those of all steps, of all lines and by score threshold.
 evolin_ros::RepeatabilityMetrics repeatabilityMessage(
     const MetricHead& head, const RepeatabilityRecord& record,
-    const std::vector<RepeatabilitySetting>& settings, bool first_step);
+    const std::vector<RepeatabilitySetting>& settings,
+    const std::vector<RepeatabilitySetting>& settings_by_score, bool first_step);
 /// Of all pairs.
-evolin_ros::RepeatabilityMetrics repeatabilityMessage(const MetricHead& head,
-                                                      const MotionEvaluation& motion);
+evolin_ros::RepeatabilityMetrics repeatabilityMessage(const MetricHead& head, const PassSums& sums);
 
 /// Of all pairs, or of one when the errors hold one.
 evolin_ros::PoseMetrics poseMessage(const MetricHead& head, const PoseErrorMetrics& errors,

@@ -21,6 +21,9 @@ void advertise(ros::NodeHandle& handle, const char* frame, const char* cumulativ
 MetricPublishers::MetricPublishers(ros::NodeHandle& handle, const PassOptions& options)
     : options_(options),
       repeatability_settings_(RepeatabilityMetrics(options.motion.repeatabilities).settings()) {
+  if (const MotionEvaluation motion(options.motion); motion.repeatabilityByScore()) {
+    repeatability_settings_by_score_ = motion.repeatabilityByScore()->settings();
+  }
   if (wants(MetricFamily::kDetection)) {
     advertise<evolin_ros::DetectionMetrics>(handle, topics::kDetectionFrame,
                                             topics::kDetectionCumulative, &detection_frame_,
@@ -70,14 +73,16 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
     }
   }
   for (const HeatmapRecord& frame : update.heatmaps) {
-    heatmap_frame_.publish(heatmapMessage(
-        headOf(frame.stamp), HeatmapMetrics(options_.evaluation.heatmap).scoreThresholds(),
-        frame.counts));
+    const std::vector<double> thresholds =
+        frame.scored == false ? std::vector<double>()
+                              : HeatmapMetrics(options_.evaluation.heatmap).scoreThresholds();
+    heatmap_frame_.publish(heatmapMessage(headOf(frame.stamp), thresholds, frame.counts));
   }
   for (const RepeatabilityRecord& pair : update.repeatability) {
     const bool first_step = pair.frame_step == options_.motion.repeatabilities.frame_steps.front();
     repeatability_frame_.publish(
-        repeatabilityMessage(headOf(pair.stamp), pair, repeatability_settings_, first_step));
+        repeatabilityMessage(headOf(pair.stamp), pair, repeatability_settings_,
+                             repeatability_settings_by_score_, first_step));
   }
   if (wants(MetricFamily::kAssociation)) {
     for (const PairRecord& pair : update.pairs) {
@@ -91,15 +96,13 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
     PoseErrorMetrics errors(options_.evaluation.pose_errors);
     errors.addPair(pair.pair);
     pose_frame_.publish(poseMessage(headOf(pair.stamp), errors,
-                                    toString(options_.motion.pose_method.strategy),
-                                    options_.frame_step, options_.auc_thresholds));
+                                    toString(options_.motion.pose_method.strategy), pair.frame_step,
+                                    options_.auc_thresholds));
   }
 }
 
-void MetricPublishers::publishSums(const StreamEvaluator& evaluator,
-                                   const std_msgs::Header& header) const {
-  const PassEvaluation& pass = evaluator.current();
-  const SequenceEvaluator& sums = pass.evaluator();
+void MetricPublishers::publishSums(const PassSums& pass, const std_msgs::Header& header) const {
+  const SequenceEvaluator& sums = pass.evaluator;
   const auto headFor = [&](std::size_t frames) {
     return MetricHead{header, true, frames, options_.evaluation.vectorized.protocol};
   };
@@ -108,15 +111,21 @@ void MetricPublishers::publishSums(const StreamEvaluator& evaluator,
                                                    sums.detectionEntries(), sums.spread().share()));
   }
   if (wants(MetricFamily::kHeatmap)) {
-    heatmap_cumulative_.publish(
-        heatmapMessage(headFor(sums.heatmapFrames()), sums.heatmapThresholds(), sums.heatmap()));
+    const UnscoredHeatmap& unscored = sums.unscoredHeatmap();
+    if (unscored.frames > 0 && sums.heatmapFrames() == unscored.empty_frames) {
+      heatmap_cumulative_.publish(
+          heatmapMessage(headFor(unscored.frames + unscored.empty_frames), {}, {unscored.counts}));
+    } else {
+      heatmap_cumulative_.publish(
+          heatmapMessage(headFor(sums.heatmapFrames()), sums.heatmapThresholds(), sums.heatmap()));
+    }
   }
   if (wants(MetricFamily::kRepeatability)) {
     std::size_t pairs = 0;
     for (const int step : options_.motion.repeatabilities.frame_steps) {
-      pairs += pass.motion().repeatability().pairs(step);
+      pairs += pass.repeatability.pairs(step);
     }
-    repeatability_cumulative_.publish(repeatabilityMessage(headFor(pairs), pass.motion()));
+    repeatability_cumulative_.publish(repeatabilityMessage(headFor(pairs), pass));
   }
   if (wants(MetricFamily::kAssociation)) {
     association_cumulative_.publish(associationMessage(headFor(sums.association().pairs()),
@@ -127,12 +136,12 @@ void MetricPublishers::publishSums(const StreamEvaluator& evaluator,
   if (wants(MetricFamily::kPose)) {
     pose_cumulative_.publish(poseMessage(headFor(sums.pose().pairs()), sums.pose(),
                                          toString(options_.motion.pose_method.strategy),
-                                         options_.frame_step, options_.auc_thresholds));
+                                         pass.pose_step, options_.auc_thresholds));
   }
   if (wants(MetricFamily::kTracks)) {
-    tracks_cumulative_.publish(trackMessage(headFor(0), pass.tracks()));
+    tracks_cumulative_.publish(trackMessage(headFor(0), pass.tracks));
   }
-  coverage_.publish(coverageMessage(header, evaluator.coverage()));
+  coverage_.publish(coverageMessage(header, pass.coverage));
 }
 
 }  // namespace evolin::ros_shell

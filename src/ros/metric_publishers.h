@@ -16,14 +16,15 @@ class MetricPublishers {
   /// Figures of single frames and pairs. `header` lends its frame_id.
   void publish(const EvaluationUpdate& update, const std_msgs::Header& header) const;
 
-  /// Sums over the newest pass; `header` is that of the last input.
-  void publishSums(const StreamEvaluator& evaluator, const std_msgs::Header& header) const;
+  /// Sums over a pass; `header` is that of the last input.
+  void publishSums(const PassSums& pass, const std_msgs::Header& header) const;
 
  private:
   bool wants(MetricFamily family) const { return options_.families.count(family) != 0; }
 
   PassOptions options_;
   std::vector<RepeatabilitySetting> repeatability_settings_;
+  std::vector<RepeatabilitySetting> repeatability_settings_by_score_;
   ros::Publisher detection_frame_;
   ros::Publisher detection_cumulative_;
   ros::Publisher heatmap_frame_;

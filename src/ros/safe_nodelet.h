@@ -18,6 +18,10 @@ class SafeNodelet : public nodelet::Nodelet {
  public:
   SafeNodelet();
   ~SafeNodelet() override;
+  SafeNodelet(const SafeNodelet&) = delete;
+  SafeNodelet& operator=(const SafeNodelet&) = delete;
+  SafeNodelet(SafeNodelet&&) = delete;
+  SafeNodelet& operator=(SafeNodelet&&) = delete;
 
  protected:
   /// Reads parameters, advertises, subscribes. What it throws is logged as fatal and refuses the

@@ -1,17 +1,22 @@
 // First in, first out.
 #include "task_worker.h"
 
+#include <iterator>
 #include <utility>
 
 namespace evolin::ros_shell {
 
 TaskWorker::TaskWorker(const TaskOptions& options, std::size_t capacity, Done done)
-    : runner_(options), capacity_(capacity), done_(std::move(done)), thread_([this] { work(); }) {}
+    : runner_(options, &stop_task_),
+      capacity_(capacity),
+      done_(std::move(done)),
+      thread_([this] { work(); }) {}
 
 TaskWorker::~TaskWorker() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
+    stop_task_ = true;
   }
   changed_.notify_all();
   thread_.join();
@@ -29,9 +34,17 @@ bool TaskWorker::add(EvaluationTask task) {
   return true;
 }
 
-void TaskWorker::clear() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+std::vector<EvaluationTask> TaskWorker::cancel() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  std::vector<EvaluationTask> waiting(std::make_move_iterator(tasks_.begin()),
+                                      std::make_move_iterator(tasks_.end()));
   tasks_.clear();
+  if (running_) {
+    stop_task_ = true;
+    const std::uint64_t current = finished_;
+    changed_.wait(lock, [&] { return finished_ != current; });
+  }
+  return waiting;
 }
 
 void TaskWorker::work() {
@@ -45,8 +58,16 @@ void TaskWorker::work() {
       }
       task = std::move(tasks_.front());
       tasks_.pop_front();
+      running_ = true;
+      stop_task_ = false;
     }
     done_(runner_.run(task));
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      running_ = false;
+      ++finished_;
+    }
+    changed_.notify_all();
   }
 }
 

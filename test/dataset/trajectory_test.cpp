@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <string>
 
 #include "test/support/expect_error.h"
@@ -66,6 +68,24 @@ TEST(Trajectory, TakesTheNearerOfTwoPosesOfTheSameTime) {
 
 TEST(Trajectory, RefusesStampsThatDoNotIncrease) {
   expectError([] { Trajectory({poseAt(5, 0), poseAt(5, 1)}); }, {"0.000000005", "increasing"});
+}
+
+TEST(Trajectory, ForgetsOnlyWhatNoLaterLookUpNeeds) {
+  Trajectory trajectory;
+  Trajectory whole;
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(trajectory.add(poseAt(i * 10 * kMillisecond, i)));
+    ASSERT_TRUE(whole.add(poseAt(i * 10 * kMillisecond, i)));
+    const Stamp oldest = std::max<Stamp>(0, (i - 20) * 10 * kMillisecond);
+    trajectory.forgetBefore(oldest);
+    // Those of the gap before and of the 20 after it, twice.
+    ASSERT_LE(trajectory.poses().size(), 64U) << i;
+    for (Stamp stamp = oldest; stamp <= i * 10 * kMillisecond; stamp += 3 * kMillisecond) {
+      ASSERT_EQ(trajectory.at(stamp)->translation.x(), whole.at(stamp)->translation.x());
+    }
+  }
+  trajectory.forgetBefore(1000 * kNanosecondsPerSecond);
+  EXPECT_EQ(trajectory.poses().size(), 1U);
 }
 
 TEST(ReadTrajectory, SkipsCommentsAndNormalisesQuaternions) {
@@ -137,6 +157,33 @@ TEST(ReadTrajectory, ReadsARealTrajectory) {
   ASSERT_TRUE(pose.has_value());
   EXPECT_NEAR(pose->translation.x(), 1.2334, 1e-12);
   EXPECT_NEAR(pose->translation.z(), 1.6940, 1e-12);
+}
+
+TEST(Trajectory, ForgetsWhatNoLaterLookUpNeeds) {
+  constexpr Stamp kPeriod = kNanosecondsPerSecond / 100;
+  Trajectory all;
+  Trajectory forgetful;
+  std::size_t most = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Pose pose;
+    pose.translation.x() = i;
+    all.add({i * kPeriod, pose});
+    forgetful.add({i * kPeriod, pose});
+    const Stamp bound = (i - 50) * kPeriod;
+    forgetful.forgetBefore(bound);
+    most = std::max(most, forgetful.poses().size());
+    for (const Stamp stamp : {bound, bound + kPeriod / 3, i * kPeriod}) {
+      const std::optional<Pose> expected = all.at(stamp);
+      const std::optional<Pose> got = forgetful.at(stamp);
+      ASSERT_EQ(got.has_value(), expected.has_value());
+      if (got) {
+        ASSERT_EQ(got->translation, expected->translation);
+      }
+    }
+  }
+  EXPECT_LT(most, 200U) << "61 are needed";
+  forgetful.forgetBefore(1000 * kNanosecondsPerSecond);
+  EXPECT_EQ(forgetful.poses().size(), 1U) << "poses were there";
 }
 
 }  // namespace

@@ -99,6 +99,50 @@ TEST(MotionEvaluation, FindsTheLinesOfAWallAgain) {
   EXPECT_EQ(motion.counts().no_depth + motion.counts().no_pose + motion.counts().late, 0U);
 }
 
+TEST(MotionEvaluation, ScoreThresholdsComeBesidesAllLines) {
+  MotionOptions options = shortSteps();
+  options.repeatability_score_thresholds = {0.75, 0.95};
+  MotionEvaluation motion(options);
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 3; ++frame) addFrame(&motion, frame, &collected);
+  ASSERT_TRUE(motion.repeatabilityByScore().has_value());
+  const RepeatabilityMetrics& by_score = *motion.repeatabilityByScore();
+  const std::size_t settings = motion.repeatability().settings().size();
+  ASSERT_EQ(by_score.settings().size(), 2 * settings);
+  ASSERT_EQ(collected.repeatability.size(), 2U);
+  for (const RepeatabilityRecord& record : collected.repeatability) {
+    ASSERT_EQ(record.pair.size(), settings);
+    ASSERT_EQ(record.by_score.size(), 2 * settings);
+    EXPECT_EQ(record.pair[0].lines, 6U);
+    EXPECT_EQ(record.by_score[0].lines, 4U);
+    EXPECT_EQ(record.by_score[settings].lines, 0U);
+  }
+  EXPECT_EQ(by_score.figures(0)->repeatability, 1);
+  EXPECT_EQ(by_score.figures(settings)->repeatability, 0);
+  EXPECT_EQ(motion.counts().unscored_pairs, 0U);
+}
+
+TEST(MotionEvaluation, LinesWithoutScoresHaveTheirRepeatabilityWithoutThresholds) {
+  MotionOptions options = shortSteps();
+  options.repeatability_score_thresholds = {0.75};
+  MotionEvaluation motion(options);
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 3; ++frame) {
+    LineSegments lines = linesAt(frame);
+    lines[1].score = kNoScore;
+    collected.take(motion.addDepth(stampOf(frame), wall()));
+    collected.take(motion.addPose(poseAt(frame)));
+    collected.take(motion.addLines(detected(stampOf(frame), lines)));
+  }
+  EXPECT_TRUE(collected.notes.empty());
+  EXPECT_EQ(motion.repeatability().pairs(1), 2U);
+  EXPECT_EQ(motion.repeatability().figures(0)->repeatability, 1);
+  EXPECT_EQ(motion.repeatabilityByScore()->pairs(1), 0U);
+  EXPECT_EQ(motion.counts().unscored_pairs, 2U);
+}
+
 TEST(MotionEvaluation, CountsStepsOverFramesWithoutLines) {
   MotionOptions options;
   options.repeatabilities.frame_steps = {2};
@@ -114,6 +158,28 @@ TEST(MotionEvaluation, CountsStepsOverFramesWithoutLines) {
   ASSERT_EQ(collected.repeatability.size(), 3U);
   for (const RepeatabilityRecord& record : collected.repeatability) {
     EXPECT_EQ(record.stamp - record.first_stamp, 2 * kPeriod);
+  }
+}
+
+TEST(PassEvaluation, FrameStepsDoNotCountImagesWithStampsOfTheirOwn) {
+  for (const Stamp offset : {kMillisecond, 45 * kMillisecond}) {
+    PassOptions options;
+    options.motion = shortSteps();
+    options.motion.repeatabilities.frame_steps = {2};
+    options.families = {MetricFamily::kRepeatability};
+    PassEvaluation pass(options);
+    pass.setCamera(camera());
+    for (int frame = 0; frame < 20; ++frame) {
+      pass.addImage(stampOf(frame) + offset);
+      pass.addDepth(stampOf(frame), wall());
+      pass.addPose(poseAt(frame));
+      pass.addLines(detected(stampOf(frame), linesAt(frame)));
+    }
+    const Report report = pass.report(true);
+    ASSERT_EQ(report.repeatability.records.size(), 18U) << offset;
+    for (const RepeatabilityRecord& record : report.repeatability.records) {
+      EXPECT_EQ(record.stamp - record.first_stamp, 2 * kPeriod);
+    }
   }
 }
 
@@ -180,7 +246,8 @@ TEST(MotionEvaluation, AFullBufferGoesOnAndCounts) {
   EXPECT_EQ(motion.counts().no_pose, 15U);
   motion.finish();
   EXPECT_EQ(motion.counts().no_pose, 20U);
-  EXPECT_EQ(motion.counts().pairs_no_pose, 20U);
+  EXPECT_EQ(motion.counts().pairs_left_buffer, 16U);
+  EXPECT_EQ(motion.counts().pairs_no_pose, 4U);
 }
 
 TEST(MotionEvaluation, GivesMatchedPairsOutAsTasks) {
@@ -222,7 +289,63 @@ TEST(MotionEvaluation, MatchesWaitForTheirFrames) {
   for (int frame = 0; frame < 2; ++frame) addFrame(&motion, frame, &collected);
   EXPECT_EQ(collected.tasks.size(), 1U);
   collected.take(motion.finish());
-  EXPECT_EQ(motion.counts().pairs_no_pose, 1U) << "frame 2 never came";
+  EXPECT_EQ(motion.counts().pairs_no_lines, 1U) << "frame 2 never came";
+  EXPECT_EQ(motion.counts().pairs_no_pose, 0U);
+}
+
+TEST(MotionEvaluation, LinesThatAreNotFiniteHaveAReasonOfTheirOwn) {
+  MotionEvaluation motion(shortSteps());
+  Collected collected;
+  collected.take(motion.setCamera(camera()));
+  for (int frame = 0; frame < 3; ++frame) {
+    collected.take(motion.addDepth(stampOf(frame), wall()));
+    collected.take(motion.addPose(poseAt(frame)));
+    LineSet lines = detected(stampOf(frame), linesAt(frame));
+    if (frame == 1) lines.lines[2].y1 = std::nan("");
+    collected.take(motion.addLines(lines));
+    if (frame > 0) {
+      collected.take(
+          motion.addMatches(matchSet(stampOf(frame - 1), stampOf(frame), "detector", same(2))));
+    }
+  }
+  EXPECT_EQ(motion.counts().bad_lines, 1U);
+  EXPECT_EQ(motion.counts().no_depth + motion.counts().no_pose, 0U);
+  EXPECT_EQ(motion.counts().frames, 2U);
+  EXPECT_EQ(motion.counts().pairs_bad_lines, 2U);
+  EXPECT_EQ(motion.counts().pairs_no_depth, 0U);
+  ASSERT_EQ(collected.notes.size(), 1U);
+  EXPECT_NE(collected.notes[0].find("row 2"), std::string::npos) << collected.notes[0];
+}
+
+TEST(PassEvaluation, APoseEstimateSaysOverHowManyImagesItReaches) {
+  PassOptions options;
+  options.frame_step = 5;  // what somebody said
+  options.families = {MetricFamily::kPose};
+  for (const bool own_stamps : {true, false}) {
+    PassEvaluation pass(options);
+    std::vector<int> steps;
+    const auto take = [&](EvaluationUpdate update) {
+      test::runTasks({}, &pass, &update);
+      for (const PoseRecord& record : update.poses) steps.push_back(record.frame_step);
+    };
+    take(pass.setCamera(camera()));
+    for (int frame = 0; frame < 5; ++frame) {
+      take(pass.addImage(stampOf(frame) + (own_stamps ? 0 : 45 * kMillisecond)));
+      take(pass.addDepth(stampOf(frame), wall()));
+      take(pass.addPose(poseAt(frame)));
+      take(pass.addLines(detected(stampOf(frame), linesAt(frame))));
+      if (frame >= 2) {
+        take(pass.addMatches(matchSet(stampOf(frame - 2), stampOf(frame), "detector", same(3))));
+      }
+    }
+    EXPECT_EQ(steps, (std::vector<int>{2, 2, 2}));
+    EXPECT_EQ(pass.poseStep(), 2);
+    EXPECT_EQ(pass.report(true).pose.frame_step, 2);
+    take(pass.addMatches(matchSet(stampOf(3), stampOf(4), "detector", same(3))));
+    EXPECT_EQ(pass.poseStep(), 0) << "not the same for all";
+    EXPECT_EQ(pass.report(true).pose.frame_step, 0);
+    EXPECT_EQ(pass.report(true).pose.records.back().frame_step, 1);
+  }
 }
 
 TEST(MotionEvaluation, ACopyThatFinishesLeavesTheOriginalWaiting) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <limits>
 
 #include "test/evaluation/sample_frames.h"
@@ -61,33 +62,34 @@ TEST(PassEvaluation, EveryFrameEndsInOneState) {
   PassOptions options = withBuffer(4);
   options.families = {MetricFamily::kDetection, MetricFamily::kAssociation};
   PassEvaluation pass(options);
-  pass.addImage(1);                   // its lines never come
-  pass.addGroundTruth(handTruth(2));  // has to leave the buffer before its lines come
-  pass.addLines(handLines(3));        // its ground truth never comes
-  pass.addLines(handLines(4));
-  pass.addGroundTruth(annotated(4, {line(9, 9, 9, 9)}));
-  LineSet other_size = handLines(5);
+  pass.addImage(1 * kSecond);                   // its lines never come
+  pass.addGroundTruth(handTruth(2 * kSecond));  // has to leave the buffer before its lines come
+  pass.addLines(handLines(3 * kSecond));        // its ground truth never comes
+  pass.addLines(handLines(4 * kSecond));
+  pass.addGroundTruth(annotated(4 * kSecond, {line(9, 9, 9, 9)}));
+  LineSet other_size = handLines(5 * kSecond);
   other_size.width = 64;
   pass.addLines(other_size);
-  pass.addGroundTruth(handTruth(5));
-  pass.addLines(handLines(6));
-  pass.addGroundTruth(handTruth(6));
-  pass.addLines(handLines(2));
-  pass.addImage(7);
+  pass.addGroundTruth(handTruth(5 * kSecond));
+  pass.addImage(6 * kSecond);
+  pass.addLines(handLines(6 * kSecond));
+  pass.addGroundTruth(handTruth(6 * kSecond));
+  pass.addLines(handLines(2 * kSecond));
+  pass.addImage(7 * kSecond);
 
   const Report now = pass.report(false);
-  EXPECT_EQ(stateAt(now, 1), FrameState::kWaiting);
-  EXPECT_EQ(stateAt(now, 2), FrameState::kDropped);
-  EXPECT_EQ(stateAt(now, 3), FrameState::kWaiting);
-  EXPECT_EQ(stateAt(now, 4), FrameState::kBadGroundTruth);
-  EXPECT_EQ(stateAt(now, 5), FrameState::kSkipped);
-  EXPECT_EQ(stateAt(now, 6), FrameState::kEvaluated);
+  EXPECT_EQ(stateAt(now, 1 * kSecond), FrameState::kWaiting);
+  EXPECT_EQ(stateAt(now, 2 * kSecond), FrameState::kDropped);
+  EXPECT_EQ(stateAt(now, 3 * kSecond), FrameState::kWaiting);
+  EXPECT_EQ(stateAt(now, 4 * kSecond), FrameState::kBadGroundTruth);
+  EXPECT_EQ(stateAt(now, 5 * kSecond), FrameState::kSkipped);
+  EXPECT_EQ(stateAt(now, 6 * kSecond), FrameState::kEvaluated);
   EXPECT_EQ(now.coverage.waiting, 3U);
   EXPECT_FALSE(now.complete);
 
   const Report end = pass.report(true);
-  EXPECT_EQ(stateAt(end, 1), FrameState::kUnmatched);
-  EXPECT_EQ(stateAt(end, 3), FrameState::kNoGroundTruth);
+  EXPECT_EQ(stateAt(end, 1 * kSecond), FrameState::kUnmatched);
+  EXPECT_EQ(stateAt(end, 3 * kSecond), FrameState::kNoGroundTruth);
   EXPECT_EQ(end.coverage.seen, 7U);
   EXPECT_EQ(end.coverage.waiting, 0U);
   EXPECT_EQ(end.coverage.evaluated, 1U);
@@ -100,6 +102,69 @@ TEST(PassEvaluation, EveryFrameEndsInOneState) {
   ASSERT_EQ(end.notes.size(), 2U);
   EXPECT_NE(end.notes[0].find("row 0"), std::string::npos) << end.notes[0];
   EXPECT_NE(end.notes[1].find("64x128"), std::string::npos) << end.notes[1];
+}
+
+/// Frames a tenth of a second apart with camera_info `offset` after each, but for frame `lost`.
+Report reportWithImages(int frames, Stamp offset, int lost, std::vector<Stamp>* told) {
+  constexpr Stamp kPeriod = kSecond / 10;
+  PassOptions options;
+  options.families = {MetricFamily::kDetection};
+  PassEvaluation pass(options);
+  const auto take = [told](const EvaluationUpdate& update) {
+    if (update.image_offset) told->push_back(*update.image_offset);
+  };
+  for (int i = 0; i < frames; ++i) {
+    const Stamp stamp = kSecond + i * kPeriod;
+    take(pass.addImage(stamp + offset));
+    if (i == lost) continue;
+    take(pass.addLines(handLines(stamp)));
+    take(pass.addGroundTruth(handTruth(stamp)));
+    expectEqual(pass.coverage(), pass.report(false).coverage);
+  }
+  EXPECT_EQ(pass.waiting(), lost < frames);
+  return pass.report(true);
+}
+
+TEST(PassEvaluation, ImagesWithStampsOfTheirOwnAreNoFrames) {
+  constexpr Stamp kMillisecond = kSecond / 1000;
+  for (const int frames : {3, 12, 40}) {
+    // 45 ms: beyond the tolerance, but no image ever has the stamp of a frame.
+    for (const Stamp offset : {Stamp{1}, 5 * kMillisecond, -5 * kMillisecond, 45 * kMillisecond}) {
+      SCOPED_TRACE(std::to_string(frames) + " frames, offset " + std::to_string(offset));
+      std::vector<Stamp> told;
+      const Report report = reportWithImages(frames, offset, frames, &told);
+      EXPECT_EQ(report.coverage.seen, static_cast<std::size_t>(frames));
+      EXPECT_EQ(report.coverage.evaluated, static_cast<std::size_t>(frames));
+      EXPECT_EQ(report.frames.size(), static_cast<std::size_t>(frames));
+      ASSERT_EQ(report.notes.size(), 1U);
+      EXPECT_NE(report.notes[0].find("camera_info"), std::string::npos) << report.notes[0];
+      if (frames > 10) {
+        EXPECT_EQ(told, std::vector<Stamp>{std::abs(offset)}) << "once";
+      }
+    }
+  }
+}
+
+TEST(PassEvaluation, AnImageWhoseLinesNeverComeIsCounted) {
+  for (const int lost : {0, 3, 38}) {
+    std::vector<Stamp> told;
+    const Report report = reportWithImages(40, 0, lost, &told);
+    EXPECT_EQ(report.coverage.seen, 40U);
+    EXPECT_EQ(report.coverage.unmatched, 1U);
+    EXPECT_EQ(stateAt(report, kSecond + lost * (kSecond / 10)), FrameState::kUnmatched);
+    EXPECT_TRUE(told.empty());
+    EXPECT_TRUE(report.notes.empty());
+  }
+}
+
+TEST(PassEvaluation, OfImagesSomeOffTheFramesOnlyThoseAreLeftOut) {
+  PassEvaluation pass;
+  for (int i = 0; i < 20; ++i) {
+    const Stamp stamp = (i + 1) * kSecond;
+    pass.addImage(i % 2 == 0 ? stamp : stamp + 200);  // as rounded on the way
+    pass.addLines(handLines(stamp));
+  }
+  EXPECT_EQ(pass.report(true).coverage.seen, 20U);
 }
 
 TEST(PassEvaluation, AskingForTheEndDoesNotEndThePass) {
@@ -358,6 +423,141 @@ TEST(PassEvaluation, TracksNeedNoGroundTruth) {
   EXPECT_EQ(report.tracks.tracks, 5U) << report.tracks.reason;
   EXPECT_EQ(report.tracks.longest, 3U);
   EXPECT_EQ(report.detected_pairs.no_ground_truth, 2U);
+}
+
+/// Line 0 is the same physical line throughout but changes its id every 40 frames.
+void addTracked(Stamp first, Stamp last, PassEvaluation* pass) {
+  for (Stamp stamp = first; stamp <= last; ++stamp) {
+    LineSet lines = handLines(stamp);
+    lines.lines[0].id = stamp / 40;
+    lines.lines[1].id = 1000;
+    lines.lines[2].id = kNoId;
+    pass->addGroundTruth(handTruth(stamp));
+    pass->addLines(lines);
+  }
+}
+
+TEST(PassEvaluation, TracksOfALongPassOutliveTheBuffer) {
+  for (const std::size_t buffer : {std::size_t{2}, std::size_t{50}, std::size_t{1000}}) {
+    PassEvaluation pass(withBuffer(buffer));
+    addTracked(1, 199, &pass);
+    const TrackReport tracks = pass.report(true).tracks;
+    EXPECT_FALSE(tracks.from_matches) << "buffer " << buffer;
+    EXPECT_EQ(tracks.frames, 199U) << "buffer " << buffer;
+    EXPECT_EQ(tracks.tracks, 6U) << "buffer " << buffer;
+    EXPECT_EQ(tracks.longest, 199U) << "buffer " << buffer;
+    // The second line is beyond the gate of every annotated one.
+    EXPECT_EQ(tracks.observations, 199U) << "buffer " << buffer;
+    EXPECT_EQ(tracks.identity_switches, 4U) << "buffer " << buffer;
+  }
+}
+
+TEST(PassEvaluation, TracksCountAFrameThatComesAfterManyLaterOnes) {
+  PassEvaluation pass;
+  addTracked(2, 100, &pass);
+  addTracked(1, 1, &pass);
+  const TrackReport tracks = pass.report(true).tracks;
+  EXPECT_EQ(tracks.frames, 99U);
+  EXPECT_EQ(tracks.late, 1U);
+}
+
+TEST(PassEvaluation, MatchesOfFramesThatLeftTheBufferAreSkipped) {
+  PassEvaluation pass(withBuffer(2));
+  addTracked(1, 100, &pass);
+  pass.addMatches(matchSet(1, 2, "detector", {{0, 0}}));
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.detected_pairs.skipped, 1U);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes.back().find("raise buffer"), std::string::npos) << report.notes.back();
+}
+
+TEST(PassEvaluation, HeatmapOfLinesWithoutScoresIsThatWithoutThresholds) {
+  PassOptions plain;
+  plain.families = {MetricFamily::kHeatmap};
+  PassOptions by_score = plain;
+  by_score.evaluation.heatmap.score_thresholds = {0.5, 0.1};
+  std::vector<Report> reports;
+  for (const PassOptions& options : {plain, by_score}) {
+    PassEvaluation pass(options);
+    const TaskRunner runner({options.evaluation.heatmap, options.motion.pose_method});
+    for (const Stamp stamp : {1, 2, 3}) {
+      LineSet lines = handLines(stamp);
+      lines.scored = false;
+      for (LineSegment& line : lines.lines) line.score = kNoScore;
+      if (stamp == 2) lines.lines.clear();
+      pass.addGroundTruth(handTruth(stamp));
+      for (const EvaluationTask& task : pass.addLines(lines).tasks) {
+        pass.addResult(runner.run(task));
+      }
+    }
+    reports.push_back(pass.report(true));
+  }
+  const Classification& expected = reports[0].heatmap.counts.at(0);
+  const UnscoredHeatmap& unscored = reports[1].heatmap.unscored;
+  EXPECT_EQ(unscored.frames, 2U);
+  EXPECT_EQ(unscored.empty_frames, 1U);
+  EXPECT_GT(expected.true_positives, 0U);
+  EXPECT_EQ(unscored.counts.true_positives, expected.true_positives);
+  EXPECT_EQ(unscored.counts.predicted, expected.predicted);
+  EXPECT_EQ(unscored.counts.ground_truth, expected.ground_truth);
+  EXPECT_EQ(reports[1].coverage.heatmap_skipped, 0U);
+  EXPECT_NE(whyNoHeatmap(reports[1]).find("no scores"), std::string::npos);
+  EXPECT_NE(toJson(reports[1]).find("\"unscored\""), std::string::npos);
+  EXPECT_NE(toMarkdown(reports[1]).find("lines without scores"), std::string::npos);
+  EXPECT_EQ(whyNoHeatmap(reports[0]), "");
+}
+
+/// By matches where `ids` is false: a frame has the lines 0, 1, 2 and every tenth loses the second.
+TrackReport tracksOf(int frames, std::size_t buffer, bool ids) {
+  PassOptions options = withBuffer(buffer);
+  options.families = {MetricFamily::kTracks};
+  PassEvaluation pass(options);
+  for (int i = 0; i < frames; ++i) {
+    const Stamp stamp = (i + 1) * kSecond;
+    LineSet lines = handLines(stamp);
+    for (std::size_t row = 0; ids && row < 3; ++row) {
+      lines.lines[row].id = static_cast<std::int64_t>(row) + (row == 1 ? 10 * (i / 10) : 0);
+    }
+    pass.addGroundTruth(handTruth(stamp));
+    pass.addLines(lines);
+    LineMatches matches = {{0, 0}, {2, 2}};
+    if (i % 10 != 0) matches.push_back({1, 1});
+    if (i > 0) pass.addMatches(matchSet(stamp - kSecond, stamp, "detector", matches));
+  }
+  return pass.tracks();
+}
+
+TEST(PassEvaluation, TracksAreTheSameWhateverTheBuffer) {
+  for (const bool ids : {true, false}) {
+    SCOPED_TRACE(ids);
+    for (const std::size_t buffer : {std::size_t{2}, std::size_t{40}, std::size_t{1000}}) {
+      const TrackReport tracks = tracksOf(200, buffer, ids);
+      EXPECT_EQ(tracks.from_matches, !ids);
+      EXPECT_EQ(tracks.frames, 200U);
+      EXPECT_EQ(tracks.tracks, 22U);
+      EXPECT_EQ(tracks.longest, 200U);
+      EXPECT_EQ(tracks.median_length, 10);
+      EXPECT_EQ(tracks.identity_switches, 0U) << "the second line is 6 pixels off: beyond the gate";
+      EXPECT_EQ(tracks.late, 0U);
+    }
+  }
+}
+
+TEST(PassEvaluation, MatchesOfFramesThatHaveLeftTheBufferAreSkippedWithANote) {
+  PassOptions options = withBuffer(3);
+  options.families = {MetricFamily::kAssociation};
+  PassEvaluation pass(options);
+  for (int i = 1; i <= 10; ++i) {
+    pass.addGroundTruth(handTruth(i * kSecond));
+    pass.addLines(handLines(i * kSecond));
+  }
+  pass.addMatches(matchSet(kSecond, 2 * kSecond, "detector", {{0, 0}}));
+  pass.addMatches(matchSet(9 * kSecond, 10 * kSecond, "detector", {{0, 0}}));
+  const Report report = pass.report(true);
+  EXPECT_EQ(report.detected_pairs.evaluated, 1U);
+  EXPECT_EQ(report.detected_pairs.skipped, 1U);
+  ASSERT_EQ(report.notes.size(), 1U);
+  EXPECT_NE(report.notes[0].find("left the buffer of 3"), std::string::npos) << report.notes[0];
 }
 
 TEST(PassEvaluation, IsNotCompleteWhileTasksAreUnderWay) {

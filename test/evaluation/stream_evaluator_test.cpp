@@ -14,6 +14,7 @@
 namespace evolin {
 namespace {
 
+using test::detected;
 using test::expectCounts;
 using test::expectEqual;
 using test::expectSeenIsTheSum;
@@ -115,6 +116,23 @@ TEST(StreamEvaluator, APassThatLeavesMemoryIsGivenOutOnce) {
   EXPECT_FALSE(stream.takeReleasedReport().has_value());
 }
 
+TEST(StreamEvaluator, TellsOnceWhenThePassBeforeChanges) {
+  StreamEvaluator stream;
+  for (const Stamp stamp : {1, 2, 3}) stream.addLines(handLines(stamp * kSecond));
+  for (const Stamp stamp : {1, 2}) stream.addGroundTruth(handTruth(stamp * kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged());
+  EXPECT_EQ(stream.previous(), nullptr);
+  stream.addLines(handLines(1 * kSecond));
+  ASSERT_NE(stream.previous(), nullptr);
+  EXPECT_TRUE(stream.takePreviousChanged());
+  EXPECT_FALSE(stream.takePreviousChanged());
+  stream.addLines(handLines(2 * kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged());
+  // Another input is still in the pass before.
+  stream.addGroundTruth(handTruth(3 * kSecond));
+  EXPECT_TRUE(stream.takePreviousChanged());
+}
+
 TEST(StreamEvaluator, ADuplicateChangesNoFigureAndIsCounted) {
   const std::vector<Part> parts = randomPass(5, 10);
   StreamEvaluator stream;
@@ -169,6 +187,25 @@ TEST(StreamEvaluator, AMessageWithoutAStampIsCountedAndToldOnce) {
   EXPECT_EQ(report.coverage.evaluated, 1U);
   ASSERT_EQ(report.notes.size(), 1U);
   EXPECT_EQ(report.notes[0].rfind("lines: ", 0), 0U) << report.notes[0];
+}
+
+TEST(StreamEvaluator, DepthAndPosesWithoutAStampAreCountedAndToldOnce) {
+  StreamEvaluator stream;
+  std::vector<std::string> warnings;
+  for (int i = 0; i < 3; ++i) {
+    EvaluationUpdate update = stream.addPose({0, Pose()});
+    update.append(stream.addDepth(0, DepthMap(cv::Mat1f(2, 2, 1.0F))));
+    warnings.insert(warnings.end(), update.warnings.begin(), update.warnings.end());
+  }
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("poses_left_out"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("depth_left_out"), std::string::npos) << warnings[1];
+  const Report report = stream.report(true);
+  EXPECT_EQ(report.coverage.poses_left_out, 3U);
+  EXPECT_EQ(report.coverage.depth_left_out, 3U);
+  EXPECT_EQ(report.coverage.seen, 0U);
+  EXPECT_EQ(stream.coverage().poses_left_out, 3U);
+  EXPECT_EQ(report.notes.size(), 2U);
 }
 
 TEST(StreamEvaluator, TwoMethodsOnOneInputAreTold) {
@@ -287,8 +324,10 @@ TEST(StreamEvaluator, AnInputThatSleptThroughPassesCatchesUp) {
   stream.addLines(handLines(4));
   EXPECT_EQ(stream.previousReport()->frames.at(0).lines, 3U);
   stream.addLines(handLines(4 - 1));
+  stream.addLines(handLines(4));
   EXPECT_EQ(stream.pass(), 6);
-  EXPECT_EQ(stream.report(true).coverage.seen, 4U);
+  EXPECT_EQ(stream.report(true).frames.front().stamp, 3);
+  EXPECT_EQ(stream.report(true).coverage.no_ground_truth, 2U);
 }
 
 TEST(StreamEvaluator, DisorderIsNoJump) {
@@ -313,6 +352,40 @@ TEST(StreamEvaluator, DisorderAtTheStartIsNoJumpWhereAnotherInputKnowsTheFrame) 
     stream.addLines(handLines(3));
     EXPECT_EQ(stream.pass(), known ? 1 : 2);
     EXPECT_EQ(stream.coverage().seen, known ? 4U : 2U);
+  }
+}
+
+TEST(StreamEvaluator, ThePassBeforeChangesWithItsLastPartsAlone) {
+  StreamEvaluator stream;
+  for (const Stamp stamp : {1, 2, 3}) stream.addLines(handLines(stamp * kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged());
+  stream.addLines(handLines(kSecond));
+  EXPECT_EQ(stream.pass(), 2);
+  EXPECT_TRUE(stream.takePreviousChanged()) << "it has become the one before";
+  EXPECT_FALSE(stream.takePreviousChanged());
+  stream.addLines(handLines(2 * kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged());
+  stream.addGroundTruth(handTruth(kSecond));
+  EXPECT_FALSE(stream.takePreviousChanged()) << "ground truth that starts late joins the newest";
+}
+
+TEST(StreamEvaluator, AJumpBackIsToldAfterAnyNumberOfFrames) {
+  PassOptions options;
+  options.families = {MetricFamily::kAssociation};
+  StreamEvaluator stream(options);
+  constexpr int kFrames = 3000;  // more than stamps are remembered
+  for (int i = 1; i <= kFrames; ++i) stream.addLines(detected(i * kSecond, {}));
+  EXPECT_EQ(stream.pass(), 1);
+  stream.addLines(detected(kFrames * kSecond - 5 * kSecond + 1, {}));
+  EXPECT_EQ(stream.pass(), 1) << "out of order";
+  for (const Stamp first : {Stamp{1}, Stamp{1500}, Stamp{2999}}) {
+    const int pass = stream.pass();
+    stream.addLines(detected(first * kSecond, {}));
+    EXPECT_EQ(stream.pass(), pass + 1) << first;
+    for (int i = static_cast<int>(first) + 1; i <= kFrames; ++i) {
+      stream.addLines(detected(i * kSecond, {}));
+    }
+    EXPECT_EQ(stream.pass(), pass + 1);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -320,6 +321,22 @@ TEST(HeatmapBudget, AFrameThatDoesNotFitIsRefusedAndChangesNothing) {
   // The number is still free, and what others measured can be merged.
   hurried.merge(measure(frames, {0, 1}));
   expectSame(hurried, measure(frames, {0, 1}));
+}
+
+TEST(HeatmapStop, AFrameIsBrokenOffAndChangesNothing) {
+  const std::vector<RandomFrame> frames = randomFrames(2);
+  std::atomic<bool> stop{true};
+  HeatmapOptions options;
+  options.score_thresholds = kThresholds;
+  options.stop = &stop;
+  HeatmapMetrics metrics(options);
+  EXPECT_EQ(metrics.addFrame(0, "f", {200, 150}, frames[0].predicted, frames[0].truth),
+            HeatmapOutcome::kStopped);
+  expectSame(metrics, measure(frames, {}));
+  stop = false;
+  EXPECT_EQ(metrics.addFrame(0, "f", {200, 150}, frames[0].predicted, frames[0].truth),
+            HeatmapOutcome::kAdded);
+  expectSame(metrics, measure(frames, {0}));
 }
 
 TEST(HeatmapBudget, AFrameThatFitsIsMeasuredAsWithoutBudget) {

@@ -47,6 +47,32 @@ TEST(EvaluatorOptions, AreReadOneByOne) {
   EXPECT_EQ(options.record_parameters, (std::vector<std::string>{"/detector", "associator"}));
 }
 
+TEST(EvaluatorOptions, OfPosesAndRepeatabilityReachTheirMetrics) {
+  const EvaluatorOptions options = read(
+      "{success_rotation: 2, success_translation: 0.1, pose_seed: 7, one_to_one_distance: 3,"
+      " one_to_one_angle: 10, one_to_one_overlap: 0.25, best_lines: 20, carry_over_gate: 4,"
+      " repeatability_score_thresholds: [0.5, 0.9]}");
+  EXPECT_EQ(options.pass.evaluation.pose_errors.success_rotation, 2);
+  EXPECT_EQ(options.pass.evaluation.pose_errors.success_translation, 0.1);
+  EXPECT_EQ(options.pass.evaluation.carry_over_gate, 4);
+  const MotionOptions& motion = options.pass.motion;
+  EXPECT_EQ(motion.pose_method.seed, 7U);
+  EXPECT_EQ(motion.one_to_one.max_distance, 3);
+  EXPECT_EQ(motion.one_to_one.max_angle, 10);
+  EXPECT_EQ(motion.one_to_one.min_overlap, 0.25);
+  EXPECT_EQ(motion.best_localization.count, 20U);
+  EXPECT_EQ(motion.repeatability_score_thresholds, (std::vector<double>{0.5, 0.9}));
+}
+
+TEST(EvaluatorOptions, OfTheBootstrapMayBeNone) {
+  EXPECT_EQ(read("{}").bootstrap.resamples, 1000);
+  const BootstrapOptions options =
+      read("{bootstrap: 0, bootstrap_block: 5, bootstrap_seed: 9}").bootstrap;
+  EXPECT_EQ(options.resamples, 0);
+  EXPECT_EQ(options.block_length, 5);
+  EXPECT_EQ(options.seed, 9U);
+}
+
 TEST(EvaluatorOptions, RefuseByNameWithValueAndRange) {
   const auto expectRefusal = [](const std::string& yaml, const std::string& key,
                                 const std::string& part) {
@@ -57,6 +83,20 @@ TEST(EvaluatorOptions, RefuseByNameWithValueAndRange) {
   expectRefusal("distance_thresholds: [.nan]", "distance_thresholds", "nan");
   expectRefusal("distance_thresholds: []", "distance_thresholds", "got an empty list");
   expectRefusal("distance_thresholds: 5", "distance_thresholds", "list");
+  expectRefusal("metrics: []", "metrics", "detection, heatmap, repeatability");
+  expectRefusal("metrics: [detections]", "metrics", "detections");
+  expectRefusal("success_rotation: -1", "success_rotation", "from 0 to 180");
+  expectRefusal("success_translation: .nan", "success_translation", "nan");
+  expectRefusal("pose_seed: -1", "pose_seed", "'-1'");
+  expectRefusal("one_to_one_distance: 0", "one_to_one_distance", "'0'");
+  expectRefusal("one_to_one_angle: 91", "one_to_one_angle", "'91'");
+  expectRefusal("one_to_one_overlap: 1.5", "one_to_one_overlap", "from 0 to 1");
+  expectRefusal("bootstrap: -1", "bootstrap", "from 0 to 10000000");
+  expectRefusal("bootstrap_block: -2", "bootstrap_block", "'-2'");
+  expectRefusal("bootstrap_seed: x", "bootstrap_seed", "'x'");
+  expectRefusal("best_lines: 0", "best_lines", "'0'");
+  expectRefusal("repeatability_score_thresholds: [high]", "repeatability_score_thresholds",
+                "'high'");
   expectRefusal("frame_step: 0", "frame_step", "'0'");
   expectRefusal("frame_step: 1.5", "frame_step", "'1.5'");
   expectRefusal("buffer: 1", "buffer", "from 2 to 1000000");

@@ -114,7 +114,8 @@ TEST(MetricMessages, RepeatabilityOfAPairHoldsItsOwnStepAlone) {
   RepeatabilityRecord record;
   record.frame_step = 10;
   record.pair = {{10, {4, 8.0}, {1, 1.0}}, {10, {1, 3.0}, {1, 1.0}}};
-  const auto message = overTheWire(repeatabilityMessage(head(), record, metrics.settings(), false));
+  const auto message =
+      overTheWire(repeatabilityMessage(head(), record, metrics.settings(), {}, false));
   ASSERT_EQ(message.entries.size(), 2U);
   EXPECT_EQ(message.entries[0].step, 10U);
   EXPECT_EQ(message.entries[0].distance, "orthogonal");
@@ -128,7 +129,7 @@ TEST(MetricMessages, RepeatabilityOfAPairHoldsItsOwnStepAlone) {
 }
 
 TEST(MetricMessages, RepeatabilityIsNanBeforeTheFirstPair) {
-  const auto message = overTheWire(repeatabilityMessage(head(), MotionEvaluation()));
+  const auto message = overTheWire(repeatabilityMessage(head(), PassEvaluation().sums()));
   ASSERT_EQ(message.entries.size(), 6U);
   for (const evolin_ros::RepeatabilityEntry& entry : message.entries) {
     EXPECT_TRUE(std::isnan(entry.repeatability));

@@ -52,6 +52,8 @@ class Collector {
                   : ::testing::AssertionFailure() << result.message() << "; got " << this->count();
   }
 
+  unsigned publishers() const { return subscriber_.getNumPublishers(); }
+
   std::size_t count() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return messages_.size();

@@ -6,7 +6,9 @@
 
 #include "evolin_ros/DetectionMetrics.h"
 #include "online_stream.h"
+#include "src/ros/conversions.h"
 #include "test/support/drawn_sequence.h"
+#include "test/support/random_lines.h"
 
 namespace evolin::test {
 namespace {
@@ -43,6 +45,47 @@ TEST(OnlineUnload, AFinishThatWaitsIsBrokenOff) {
   }
   expectAlive(&bench.manager());
   EXPECT_EQ(finish.get(), bench.folder() / "report.json");
+}
+
+/// A frame whose heatmap takes minutes.
+evolin_ros::LineArray hugeLines(const std::string& source, std::size_t count) {
+  RandomLines random(count);
+  LineSet set;
+  set.stamp = kNanosecondsPerSecond;
+  set.source = source;
+  set.width = set.height = 6000;
+  set.lines = random.anywhere(count, set.width - 1.0, set.height - 1.0);
+  return ros_shell::toMessage(set);
+}
+
+TEST(OnlineUnload, AHeatmapOfMinutesHoldsUpNeitherFinishNorUnload) {
+  ros::param::set(testNamespace() + "/evaluator/heatmap_budget", 0);
+  ros::param::set(testNamespace() + "/evaluator/drain_timeout", 1);
+  Bench bench;
+  ros::NodeHandle handle(bench.space());
+  ros::Publisher lines = handle.advertise<evolin_ros::LineArray>("lines", 10);
+  ros::Publisher ground_truth = handle.advertise<evolin_ros::LineArray>("ground_truth/lines", 10);
+  Collector<evolin_ros::DetectionMetrics> detection(bench.space() + "/metrics/detection/frame");
+  ASSERT_TRUE(detection.waitForPublisher());
+  ASSERT_TRUE(waitFor("the evaluator", [&] {
+    return lines.getNumSubscribers() > 0 && ground_truth.getNumSubscribers() > 0;
+  }));
+  lines.publish(hugeLines("detector", 4000));
+  ground_truth.publish(hugeLines("ground_truth", 1000));
+  ASSERT_TRUE(detection.waitForCount(1));
+  bench.call("finish");
+  const nlohmann::json report = bench.report();
+  EXPECT_EQ(report.at("complete"), true);
+  EXPECT_EQ(report.at("heatmap").at("pending"), 0);
+  expectCoverage(report, 1, 1, {{"heatmap_skipped", 1}});
+
+  bench.call("reset");
+  lines.publish(hugeLines("detector", 4000));
+  ground_truth.publish(hugeLines("ground_truth", 1000));
+  ASSERT_TRUE(detection.waitForCount(2));
+  ASSERT_TRUE(bench.manager().unload("evaluator"));
+  EXPECT_TRUE(waitFor("the evaluator's end", [&] { return detection.publishers() == 0; }));
+  expectAlive(&bench.manager());
 }
 
 TEST(OnlineUnload, WhatAnUnloadedEvaluatorHadIsOnDisk) {

@@ -1,6 +1,7 @@
-// A moment by which work must be done, for computations that may be broken off.
+// A moment by which work must be done, or a word to stop, for computations that may be broken off.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 
@@ -8,7 +9,7 @@
 
 namespace evolin {
 
-/// Thrown by work that was broken off because its deadline passed.
+/// Thrown by work that was broken off because its deadline passed or it was told to stop.
 class DeadlineError : public Error {
  public:
   using Error::Error;
@@ -31,10 +32,17 @@ class Deadline {
     return deadline;
   }
 
+  /// Besides, the work ends once `stop` is true; it outlives the deadline. None: nothing stops it.
+  void stopOn(const std::atomic<bool>* stop) { stop_ = stop; }
+
+  bool stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
   bool passed() const { return end_.has_value() && Clock::now() >= *end_; }
 
-  /// Throws DeadlineError once it has passed; some tens of nanoseconds until then.
+  /// Throws DeadlineError once it has passed or was stopped; some tens of nanoseconds until then.
   void check() const {
+    if (stopped()) {
+      throw DeadlineError("broken off: told to stop");
+    }
     if (passed()) {
       throw DeadlineError("broken off: the time allowed for it has passed");
     }
@@ -44,6 +52,7 @@ class Deadline {
   using Clock = std::chrono::steady_clock;
 
   std::optional<Clock::time_point> end_;
+  const std::atomic<bool>* stop_ = nullptr;
 };
 
 }  // namespace evolin

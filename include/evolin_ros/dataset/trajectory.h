@@ -40,6 +40,10 @@ class Trajectory {
   /// added, when there is one of the same stamp.
   bool add(const StampedPose& pose);
 
+  /// Lets go of poses that no look-up at `stamp` or later needs, now or at a later call: the cost
+  /// of a call does not grow with the number of poses.
+  void forgetBefore(Stamp stamp);
+
   /// The pose at `stamp`: the nearest one within kSameTime as it is, else interpolated between the
   /// two neighbours. None outside the trajectory's range, or when either neighbour is more than
   /// kMaxGap away.

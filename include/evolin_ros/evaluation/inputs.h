@@ -1,6 +1,8 @@
 // What the evaluation takes in: the lines of one image and the matches between two.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "evolin_ros/base/stamp.h"
@@ -30,5 +32,16 @@ struct MatchSet {
   double processing_time = 0;
   LineMatches matches;
 };
+
+/// A time as messages carry it; 0 (not measured) for what is none.
+inline double measuredTime(double seconds) {
+  return std::isfinite(seconds) && seconds > 0 ? seconds : 0;
+}
+
+/// Whether any line says which physical line or track it is.
+inline bool hasIds(const LineSegments& lines) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const LineSegment& line) { return line.id >= 0; });
+}
 
 }  // namespace evolin

@@ -26,6 +26,8 @@ struct MotionOptions {
   bool repeatability = true;  ///< whether this family is wanted
   bool pose = true;           ///< whether this family is wanted
   RepeatabilityOptions repeatabilities;
+  /// Repeatability of the lines with score > t alone, besides that of all lines; empty: none.
+  std::vector<double> repeatability_score_thresholds;
   OneToOneOptions one_to_one;
   BestLocalizationOptions best_localization;
   PoseMethodOptions pose_method;
@@ -41,6 +43,9 @@ struct RepeatabilityRecord {
   Stamp stamp = 0;
   int frame_step = 0;
   std::vector<PairRepeatability> pair;  ///< RepeatabilityMetrics::settingsOf(frame_step)
+  /// The same by score threshold, MotionEvaluation::repeatabilityByScore(); empty: not asked for,
+  /// or a line has no score.
+  std::vector<PairRepeatability> by_score;
   double one_to_one_by_count = 0;
   double one_to_one_by_length = 0;
   PairBestLocalization best;
@@ -51,11 +56,19 @@ struct MotionCounts {
   std::size_t frames = 0;          ///< with detected lines, depth and a pose
   std::size_t no_depth = 0;        ///< with lines, but no usable depth image belongs to them
   std::size_t no_pose = 0;         ///< with lines, but no pose (and perhaps no depth either)
+  std::size_t bad_lines = 0;       ///< with lines that are not finite; a note names the first row
   std::size_t late = 0;            ///< lines came after later frames had been scored
+  std::size_t unscored_pairs = 0;  ///< of repeatability, with a line without a score although there
+                                   ///< are score thresholds
   std::size_t pose_pairs = 0;      ///< given out as tasks
-  std::size_t pairs_no_depth = 0;  ///< matches of frames without depth
-  std::size_t pairs_no_pose = 0;   ///< matches of frames without pose, or with neither
-  std::size_t pairs_skipped = 0;   ///< unusable matches; a note says why
+
+  // Matches by what one of the two frames, at least, lacks; the first that holds.
+  std::size_t pairs_left_buffer = 0;  ///< a frame had to leave the full buffer before all was there
+  std::size_t pairs_no_lines = 0;     ///< nothing was heard of the lines that they are between
+  std::size_t pairs_bad_lines = 0;    ///< as bad_lines
+  std::size_t pairs_no_pose = 0;
+  std::size_t pairs_no_depth = 0;
+  std::size_t pairs_skipped = 0;  ///< unusable matches; a note says why
 };
 
 struct MotionUpdate {
@@ -70,6 +83,7 @@ struct MotionUpdate {
 /// several threads at once; copies are independent.
 class MotionEvaluation {
  public:
+  /// Throws Error for options that a metric refuses.
   explicit MotionEvaluation(MotionOptions options = {});
 
   bool wanted() const { return options_.repeatability || options_.pose; }
@@ -77,6 +91,9 @@ class MotionEvaluation {
   /// Of all frames; the first one counts, a note says when another differs.
   MotionUpdate setCamera(const Camera& camera);
   MotionUpdate addImage(Stamp stamp);
+  /// What addImage() told of was no image. One with lines or ground truth stays, and so does the
+  /// place of one that frame steps have counted already.
+  void removeImage(Stamp stamp);
   MotionUpdate addLines(const LineSet& lines);
   MotionUpdate addGroundTruth(const LineSet& ground_truth);
   MotionUpdate addDepth(Stamp stamp, DepthMap depth);
@@ -88,6 +105,8 @@ class MotionEvaluation {
 
   const MotionCounts& counts() const { return counts_; }
   const RepeatabilityMetrics& repeatability() const { return repeatability_; }
+  /// None without score thresholds.
+  const std::optional<RepeatabilityMetrics>& repeatabilityByScore() const { return by_score_; }
   const OneToOneRepeatability& oneToOne() const { return one_to_one_; }
   const BestLocalization& bestLocalization() const { return best_localization_; }
 
@@ -98,7 +117,7 @@ class MotionEvaluation {
   std::optional<Stamp> nearestDepthMiss() const { return depth_.nearestMiss(); }
 
  private:
-  enum class State { kAbsent, kWaiting, kReady, kNever };
+  enum class State { kAbsent, kWaiting, kReady, kNever, kBad };
 
   /// One set of lines of a frame on its way into space.
   struct Lifting {
@@ -134,6 +153,8 @@ class MotionEvaluation {
                   MotionUpdate* update);
   void tryPairs(Stamp stamp, MotionUpdate* update);
   bool tryPair(const PairKey& key, const MatchSet& matches, bool complete, MotionUpdate* update);
+  std::size_t* reasonAgainst(const PairKey& key, bool truth);
+  void takeLines(const LineSet& lines, bool detected, Lifting* lifting, MotionUpdate* update);
   void makeTask(const MatchSet& matches, const Node& first, const Node& second, bool truth,
                 MotionUpdate* update);
   void limitNodes(MotionUpdate* update);
@@ -141,6 +162,7 @@ class MotionEvaluation {
   MotionOptions options_;
   PoseMethod method_;
   RepeatabilityMetrics repeatability_;
+  std::optional<RepeatabilityMetrics> by_score_;
   OneToOneRepeatability one_to_one_;
   BestLocalization best_localization_;
   MotionCounts counts_;
@@ -154,6 +176,7 @@ class MotionEvaluation {
   std::string ground_truth_source_;
 
   Nodes nodes_;
+  std::optional<Stamp> gone_;     ///< the newest node that left the full buffer
   std::set<Stamp> unresolved_;    ///< nodes that wait for depth or a pose
   std::optional<Stamp> settled_;  ///< the newest scored frame; all before it are
   std::size_t places_ = 0;        ///< frames scored or passed over

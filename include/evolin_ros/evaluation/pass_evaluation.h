@@ -14,6 +14,7 @@
 #include "evolin_ros/evaluation/motion_evaluation.h"
 #include "evolin_ros/evaluation/report.h"
 #include "evolin_ros/evaluation/sequence_evaluator.h"
+#include "evolin_ros/evaluation/track_follower.h"
 
 namespace evolin {
 
@@ -39,9 +40,23 @@ struct EvaluationUpdate {
   std::vector<EvaluationTask> tasks;  ///< to be run, and their results added or the task skipped
   std::vector<std::string> notes;     ///< new ones, for the log
   std::vector<std::string> warnings;  ///< faults of the input, for the log; each kind is told once
+  /// Told once: stamps of images (camera_info) are not those of the lines, but this far off, ns.
+  std::optional<Stamp> image_offset;
   bool new_pass = false;
 
   void append(EvaluationUpdate other);
+};
+
+/// Figures of a pass so far without its records: a copy that may be looked at where nobody waits.
+struct PassSums {
+  SequenceEvaluator evaluator;
+  RepeatabilityMetrics repeatability;
+  std::optional<RepeatabilityMetrics> repeatability_by_score;
+  OneToOneRepeatability one_to_one;
+  BestLocalization best_localization;
+  TrackReport tracks;
+  CoverageCounts coverage;
+  int pose_step = 0;  ///< PassEvaluation::poseStep()
 };
 
 /// Parts may come in any order and any time apart, each at most once. Not safe for several threads
@@ -50,7 +65,9 @@ class PassEvaluation {
  public:
   explicit PassEvaluation(PassOptions options = {});
 
-  /// An image was there; its lines are awaited.
+  /// An image was there; its lines are awaited. What tells of images is a companion of theirs
+  /// (camera_info), whose stamp may be slightly off: one near a frame that has no image of its own
+  /// stamp is of that frame, and none is an image as long as no frame has one of its own stamp.
   EvaluationUpdate addImage(Stamp stamp);
   EvaluationUpdate addLines(LineSet lines);
   EvaluationUpdate addGroundTruth(LineSet ground_truth);
@@ -75,6 +92,13 @@ class PassEvaluation {
   void countDroppedFrame(const std::string& text);
   void countSkippedPair(const std::string& text);
 
+  /// A depth image or a camera pose cannot belong to any frame.
+  void countLeftOutDepth(const std::string& text);
+  void countLeftOutPose(const std::string& text);
+
+  /// Goes to the report.
+  void addNote(const std::string& text) { keepNote(text); }
+
   /// The figures so far. With `complete` nothing is waited for any more, and waiting frames are
   /// counted by what they lack.
   Report report(bool complete) const;
@@ -88,8 +112,12 @@ class PassEvaluation {
 
   const MotionEvaluation& motion() const { return motion_; }
 
-  /// Follows all lines from the beginning: time grows with what was received.
+  /// Images from the first to the second frame of every pose estimate so far; 0: it differs.
+  int poseStep() const { return pose_steps_.size() == 1 ? *pose_steps_.begin() : 0; }
+
   TrackReport tracks() const;
+
+  PassSums sums() const;
 
   const SequenceEvaluator& evaluator() const { return evaluator_; }
 
@@ -100,11 +128,10 @@ class PassEvaluation {
     std::optional<LineSet> lines;         ///< until evaluated or released
     std::optional<LineSet> ground_truth;  ///< until released
     bool released = false;
-    std::size_t line_count = 0;               ///< detected
-    std::vector<std::int64_t> track_ids;      ///< of the detected lines; empty: none has one
-    bool true_ids = false;                    ///< its ground truth has ids, or has no lines
-    std::vector<std::int64_t> carried_ids;    ///< of ground truth, for the detected lines
-    std::optional<MatchSet> earlier_matches;  ///< of detected lines, with an earlier frame
+    bool true_ids = false;                  ///< its ground truth has ids, or has no lines
+    std::vector<std::int64_t> carried_ids;  ///< of ground truth, for the detected lines; until
+                                            ///< released and followed
+    bool followed = false;                  ///< its tracks are
     FrameRecord record;
   };
   using PairKey = std::pair<Stamp, Stamp>;
@@ -112,6 +139,15 @@ class PassEvaluation {
   Entry& entryAt(Stamp stamp);
   std::uint32_t placeOfLines(Stamp stamp);
   void setState(Entry* entry, FrameState state);
+  void noteFrame(Stamp stamp, const Entry& entry);
+  bool standsForAnother(Stamp image) const;
+  int stepBetween(Stamp first, Stamp second) const;
+  std::vector<Stamp> imagesOfOthers() const;
+  std::optional<Stamp> nearestFrameTo(Stamp image) const;
+  void settleImages(EvaluationUpdate* update);
+  Stamp offsetOf(Stamp image) const;
+  std::string imageOffsetNote() const;
+  void noteLines(Stamp stamp);
   void evaluateFrame(Entry* entry, EvaluationUpdate* update);
   void evaluatePairsOf(Stamp stamp, EvaluationUpdate* update);
   /// True when the pair is settled one way or the other.
@@ -119,6 +155,9 @@ class PassEvaluation {
   bool evaluateDetectedPair(const MatchSet& matches, EvaluationUpdate* update);
   std::string whyUnusable(const MatchSet& matches) const;
   void keepForTracks(const MatchSet& matches);
+  void followTracks();
+  static void follow(TrackedLines lines, const Entry& entry, TrackFollower* follower);
+  void letGo(Entry* entry);
   void scoreFrame(Entry* entry, EvaluationUpdate* update);
   void take(MotionUpdate motion, EvaluationUpdate* update);
   bool wants(MetricFamily family) const { return options_.families.count(family) != 0; }
@@ -135,15 +174,25 @@ class PassEvaluation {
   PassOptions options_;
   SequenceEvaluator evaluator_;
   std::map<Stamp, Entry> entries_;
-  std::set<Stamp> held_;  ///< entries that hold lines or ground truth
+  std::set<Stamp> held_;               ///< entries that hold lines or ground truth
+  std::set<Stamp> images_alone_;       ///< images without lines or ground truth, not settled yet
+  std::size_t frames_heard_ = 0;       ///< with lines or ground truth
+  std::size_t exact_images_ = 0;       ///< frames among them whose image has their stamp
+  std::set<Stamp> newest_with_lines_;  ///< frames, as many as it takes to overtake an image
+  std::set<Stamp> images_doubted_;     ///< overtaken, before any frame had an image of its stamp
+  std::optional<Stamp> dropped_image_offset_;
+  bool image_offset_told_ = false;
   std::map<PairKey, MatchSet> pending_pairs_;
   std::map<PairKey, MatchSet> pending_detected_pairs_;
   std::vector<PairRecord> pair_records_;
   std::vector<DetectedPairRecord> detected_pair_records_;
   DetectedPairCounts detected_pair_counts_;
+  TrackFollower follower_;
+  std::map<Stamp, TrackedLines> unfollowed_;  ///< frames with lines that are not final yet
   MotionEvaluation motion_;
   std::vector<RepeatabilityRecord> repeatability_records_;
   std::vector<PoseRecord> pose_records_;
+  std::set<int> pose_steps_;
   std::size_t heatmaps_pending_ = 0;
   std::size_t poses_pending_ = 0;
   PairCounts pair_counts_;

@@ -52,6 +52,7 @@ struct PoseTask {
 struct PoseRecord {
   Stamp first_stamp = 0;
   Stamp stamp = 0;
+  int frame_step = 0;            ///< images from the first to the second; 0: not known
   std::size_t matched = 0;       ///< pairs of lines
   std::size_t with_depth = 0;    ///< of these
   std::size_t inliers = 0;       ///< of these, first to second

@@ -12,6 +12,8 @@
 #include "evolin_ros/evaluation/metric_family.h"
 #include "evolin_ros/evaluation/motion_evaluation.h"
 #include "evolin_ros/evaluation/task.h"
+#include "evolin_ros/evaluation/track_follower.h"
+#include "evolin_ros/metrics/bootstrap.h"
 #include "evolin_ros/metrics/classification.h"
 #include "evolin_ros/metrics/detected_association.h"
 #include "evolin_ros/metrics/pose_error.h"
@@ -50,8 +52,11 @@ struct CoverageCounts {
   // Besides: a frame may be evaluated and lack what one family needs.
   std::size_t no_depth = 0;         ///< frames with lines to which no depth image belongs
   std::size_t no_pose = 0;          ///< frames with lines without a camera pose
+  std::size_t bad_lines = 0;        ///< frames with lines that are not finite
   std::size_t heatmap_skipped = 0;  ///< frames left out of the heatmap for want of time
   std::size_t pose_skipped = 0;     ///< pairs left out of relative pose for want of time
+  std::size_t depth_left_out = 0;   ///< depth images without a stamp
+  std::size_t poses_left_out = 0;   ///< camera poses without a stamp
 
   void add(FrameState state);
   void remove(FrameState state);
@@ -125,11 +130,22 @@ struct TimingSummary {
 /// `times` in seconds, any order; the percentile is linear between neighbours.
 TimingSummary summarizeTimes(std::vector<double> times);
 
+/// Heatmap figures of lines without scores, where there are score thresholds.
+struct UnscoredHeatmap {
+  std::size_t frames = 0;        ///< with such lines
+  std::size_t empty_frames = 0;  ///< without any lines: these count with and without scores
+  Classification counts;         ///< of all lines of both
+};
+
 struct HeatmapReport {
   std::vector<double> score_thresholds;  ///< falling; empty: all lines, one entry
   std::vector<Classification> counts;    ///< one a threshold
-  std::size_t frames = 0;
-  std::size_t pending = 0;  ///< still being measured
+  std::size_t frames = 0;                ///< in `counts`
+  std::size_t pending = 0;               ///< still being measured
+  UnscoredHeatmap unscored;
+
+  /// Whether lines came, but none with a score for the thresholds.
+  bool lacksScores() const { return unscored.frames > 0 && frames == unscored.empty_frames; }
 };
 
 struct RepeatabilityRow {
@@ -145,8 +161,8 @@ struct RepeatabilityReport {
   bool poses = false;
   /// Distance in time of the nearest depth image that was too far away; none: there was no such.
   std::optional<Stamp> nearest_depth_miss;
-  std::vector<RepeatabilityRow> rows;
-  OneToOneRepeatability one_to_one;  ///< of the first frame step, as the next
+  std::vector<RepeatabilityRow> rows;  ///< of all lines, then by score threshold
+  OneToOneRepeatability one_to_one;    ///< of the first frame step, as the next
   BestLocalization best_localization;
   std::size_t best_count = 0;  ///< N of the N best
   std::vector<RepeatabilityRecord> records;
@@ -154,25 +170,27 @@ struct RepeatabilityReport {
 
 struct PoseReport {
   PoseMethodOptions method;
-  int frame_step = 1;
+  int frame_step = 0;  ///< images from the first to the second of every pair; 0: it differs
   std::vector<double> auc_thresholds;  ///< degrees
   PoseErrorMetrics errors;
   std::size_t pending = 0;  ///< still being estimated
   std::vector<PoseRecord> records;
 };
 
-/// How long lines are followed; see TrackMetrics.
-struct TrackReport {
-  std::string reason;  ///< why there are none; "" when there are
-  bool from_matches = false;
-  std::size_t frames = 0;
-  std::uint64_t tracks = 0;
-  std::optional<double> mean_length;
-  std::optional<double> median_length;
-  std::uint32_t longest = 0;
-  std::uint64_t observations = 0;
-  std::uint64_t identity_switches = 0;
-  std::uint64_t drifts = 0;
+/// Where one figure of the sequence lies with confidence.
+struct FigureInterval {
+  std::string family;
+  std::string figure;       ///< its key in report.json
+  std::optional<int> step;  ///< the figure's setting, as far as it has one
+  std::optional<LineDistance> distance;
+  std::optional<double> threshold;
+  std::optional<double> score_threshold;
+  ConfidenceInterval interval;
+};
+
+struct ReportConfidence {
+  BootstrapOptions options;
+  std::vector<FigureInterval> figures;
 };
 
 struct Report {
@@ -204,6 +222,7 @@ struct Report {
   TrackReport tracks;
   TimingSummary detector_timing;
   TimingSummary associator_timing;
+  std::optional<ReportConfidence> confidence;             ///< addConfidence(); none: not asked for
   std::vector<FrameRecord> frames;                        ///< every frame seen, by stamp
   std::vector<PairRecord> pair_records;                   ///< every pair evaluated, by stamp
   std::vector<DetectedPairRecord> detected_pair_records;  ///< by stamp

@@ -69,6 +69,8 @@ class SequenceEvaluator {
   /// By falling score threshold; one without thresholds.
   const std::vector<Classification>& heatmap() const { return heatmap_; }
   std::size_t heatmapFrames() const { return heatmap_frames_; }
+  /// Frames whose lines have no scores although there are thresholds: not in the figures above.
+  const UnscoredHeatmap& unscoredHeatmap() const { return unscored_heatmap_; }
   const std::vector<double>& heatmapThresholds() const { return heatmap_thresholds_; }
 
   /// Cumulative figures, the order of VectorizedMetrics::settings().
@@ -84,6 +86,7 @@ class SequenceEvaluator {
   std::vector<double> heatmap_thresholds_;
   std::vector<Classification> heatmap_;
   std::size_t heatmap_frames_ = 0;
+  UnscoredHeatmap unscored_heatmap_;
 };
 
 }  // namespace evolin

@@ -19,8 +19,9 @@ namespace evolin {
 /// taken where it belongs, at the start of a pass too if another input has had it in this pass; a
 /// stamp that comes twice in a row, or the newest one again, is a duplicate: the first is taken.
 /// The two newest passes are kept. What cannot be taken (duplicates, stamp 0, parts of an older
-/// pass) is counted as dropped, of matches as skipped, and warned of; only images, which bring
-/// nothing but their stamp, leave no trace. Not safe for several threads at once.
+/// pass) is counted as dropped, of matches as skipped, and warned of; images, which bring nothing
+/// but their stamp, leave no trace, depth and poses only where they have no stamp. Not safe for
+/// several threads at once.
 class StreamEvaluator {
  public:
   explicit StreamEvaluator(PassOptions options = {});
@@ -52,9 +53,21 @@ class StreamEvaluator {
   /// successor had begun; given once.
   std::optional<Report> takeReleasedReport();
 
+  /// The same as they are, to be reported on where nobody waits; null and none as above.
+  const PassEvaluation* previous() const;
+  std::optional<std::pair<int, PassEvaluation>> takeReleased();
+
+  /// Whether the pass before the newest has begun to be that, or has got a part, since this was
+  /// asked last.
+  bool takePreviousChanged() { return std::exchange(previous_changed_, false); }
+
   /// Of the newest pass, cheap at any number of frames.
   CoverageCounts coverage() const { return current().coverage(); }
 
+  /// For the report of the newest pass.
+  void addNote(const std::string& text) { passes_.at(newest_).addNote(text); }
+
+  bool hasPendingTasks() const;
   bool waiting() const;
   int pass() const { return newest_; }
   const PassEvaluation& current() const { return passes_.at(newest_); }
@@ -91,7 +104,8 @@ class StreamEvaluator {
   std::set<std::pair<Input, Fault>> told_;
   std::set<std::pair<Input, Fault>> noted_;  ///< in the newest pass's report
   std::map<int, PassEvaluation> passes_;
-  std::optional<Report> released_;
+  std::optional<std::pair<int, PassEvaluation>> released_;
+  bool previous_changed_ = false;
   int newest_ = 1;
   std::optional<Camera> camera_;
   std::uint64_t generation_ = 0;

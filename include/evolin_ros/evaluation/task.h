@@ -2,7 +2,9 @@
 // done on any thread, its result handed back.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,7 +28,10 @@ struct HeatmapTask {
 struct HeatmapRecord {
   Stamp stamp = 0;
   std::vector<Classification> counts;  ///< by falling score threshold; one without thresholds
-  std::string reason;                  ///< why there are none; "" when there are
+  /// False: a line has no score although there are thresholds; `counts` is one, of all lines. None:
+  /// there are no lines, `counts` stand for either.
+  std::optional<bool> scored = true;
+  std::string reason;  ///< why there are none; "" when there are
 };
 
 struct EvaluationTask {
@@ -49,7 +54,9 @@ struct TaskOptions {
 /// Safe for several threads.
 class TaskRunner {
  public:
-  explicit TaskRunner(const TaskOptions& options);
+  /// A heatmap is broken off, with that for its reason, once `stop` is true; it outlives the
+  /// runner. Pose estimates take milliseconds and end by themselves. None: nothing stops a task.
+  explicit TaskRunner(const TaskOptions& options, const std::atomic<bool>* stop = nullptr);
 
   EvaluationResult run(const EvaluationTask& task) const;
 

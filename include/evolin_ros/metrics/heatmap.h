@@ -2,6 +2,7 @@
 // precision over score thresholds (Ivanov, Ferrer, Kornilova 2023).
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -21,12 +22,15 @@ struct HeatmapOptions {
   std::vector<double> score_thresholds;
   /// Seconds by the steady clock that one frame may take; a frame that takes longer is refused.
   double frame_budget = std::numeric_limits<double>::infinity();
+  /// A frame is broken off once this is true; it outlives the metrics. None: nothing stops a frame.
+  const std::atomic<bool>* stop = nullptr;
 };
 
 /// What became of a frame.
 enum class HeatmapOutcome {
   kAdded,
   kOverBudget,  ///< broken off after HeatmapOptions::frame_budget; nothing was added
+  kStopped,     ///< broken off for HeatmapOptions::stop; nothing was added
 };
 
 /// What a precision-recall curve over score thresholds boils down to.
@@ -112,6 +116,7 @@ class HeatmapMetrics {
 
   std::vector<double> thresholds_;
   double frame_budget_;
+  const std::atomic<bool>* stop_;
   std::vector<Frame> frames_;  ///< by rising number
   std::vector<Classification> sums_;
 };
