@@ -17,7 +17,6 @@ std::vector<SequenceFrame> framesOf(const std::string& side) {
   DrawnSequence sequence;
   if (side == "right") {
     sequence.frames = 9;
-    sequence.width = 400;
     sequence.first_stamp += kNanosecondsPerSecond / 100;
   }
   return drawSequence(sequence);
