@@ -1,15 +1,19 @@
 // A process that hosts our nodelets as a manager does, for tests that run under sanitizers: 'host
 // cycle N' loads and unloads all of them N times in a stream; 'host stream FOLDER' evaluates one
-// until it is interrupted.
+// until it is interrupted; 'host address ENCODING' sees whether an image reaches a plug-in
+// uncopied.
 #include <cv_bridge/cv_bridge.h>
 #include <nodelet/loader.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <future>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -126,6 +130,42 @@ int stream(const std::string& folder) {
   return 0;
 }
 
+/// 0 when the plug-in got the very pixels of the message that was published in this process.
+int address(const std::string& encoding) {
+  ros::param::set("/detector/detector", "test_address");
+  ros::param::set("/detector/lazy", false);
+  nodelet::Loader loader(false);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  ros::NodeHandle handle;
+  std::promise<double> got;
+  const ros::Subscriber lines = handle.subscribe<evolin_ros::LineArray>(
+      "lines", 1, [&got](const evolin_ros::LineArrayConstPtr& message) {
+        got.set_value(message->lines.at(0).x1);
+      });
+  ros::Publisher image = handle.advertise<sensor_msgs::Image>("image", 1);
+  load(&loader, "detector", "LineDetector");
+  const int type = encoding == sensor_msgs::image_encodings::MONO8 ? CV_8UC1 : CV_8UC3;
+  std_msgs::Header header;
+  header.stamp = ros::Time(1000);
+  const sensor_msgs::ImagePtr message =
+      cv_bridge::CvImage(header, encoding, cv::Mat(48, 64, type, cv::Scalar::all(90))).toImageMsg();
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (image.getNumSubscribers() == 0 || lines.getNumPublishers() == 0) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      throw std::runtime_error("the nodelet does not connect");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  image.publish(message);
+  std::future<double> result = got.get_future();
+  if (result.wait_until(deadline) != std::future_status::ready) {
+    throw std::runtime_error("the nodelet sends no lines");
+  }
+  const auto expected = static_cast<double>(reinterpret_cast<std::uintptr_t>(message->data.data()));
+  return result.get() == expected ? 0 : 4;
+}
+
 }  // namespace
 }  // namespace evolin::test
 
@@ -136,6 +176,9 @@ int main(int argc, char** argv) {
     if (verb == "cycle" && argc > 3) {
       return evolin::test::cycle(std::stoi(argv[2]), argv[3]);
     }
+    if (verb == "address") {
+      return evolin::test::address(argv[2]);
+    }
     if (verb == "stream") {
       return evolin::test::stream(argv[2]);
     }
@@ -143,6 +186,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "nodelet_host: %s\n", error.what());
     return 3;
   }
-  std::fprintf(stderr, "usage: nodelet_host cycle ROUNDS FOLDER | stream FOLDER\n");
+  std::fprintf(stderr,
+               "usage: nodelet_host cycle ROUNDS FOLDER | stream FOLDER | address ENCODING\n");
   return 2;
 }

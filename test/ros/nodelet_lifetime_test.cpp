@@ -73,6 +73,19 @@ class NodeletLifetime : public ::testing::Test {
   std::unique_ptr<Process> master_;
 };
 
+TEST_F(NodeletLifetime, APlugInGetsThePixelsOfTheMessageThemselves) {
+  const char* const path = std::getenv("ROS_PACKAGE_PATH");
+  setenv(
+      "ROS_PACKAGE_PATH",
+      (std::string(EVOLIN_SOURCE_DIR) + "/test/plugins:" + (path == nullptr ? "" : path)).c_str(),
+      1);
+  for (const char* encoding : {"mono8", "bgr8"}) {
+    SCOPED_TRACE(encoding);
+    Process process({host(), "address", encoding});
+    EXPECT_EQ(process.wait(60), std::optional<int>(0)) << "4: another address";
+  }
+}
+
 TEST_F(NodeletLifetime, AHundredLoadsAndUnloadsInAStream) {
   Process process({host(), "cycle", "100", folder_.path().string()});
   EXPECT_EQ(process.wait(400), std::optional<int>(0)) << "a sanitizer's findings are above";
