@@ -175,9 +175,8 @@ void measureThroughput(Stream* stream, const std::string& detector_name, const c
 
 int run(const std::string& detector) {
   std::printf("detector %s, %d images of 640x480\n", detector.c_str(), kFrames);
-  const std::string encodings[] = {sensor_msgs::image_encodings::MONO8,
-                                   sensor_msgs::image_encodings::BGR8};
-  for (const std::string& encoding : encodings) {
+  for (const std::string& encoding :
+       {sensor_msgs::image_encodings::MONO8, sensor_msgs::image_encodings::BGR8}) {
     Stream stream(detector, encoding);
     measureLatency(&stream, encoding.c_str());
     measureThroughput(&stream, detector, encoding.c_str());

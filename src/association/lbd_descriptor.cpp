@@ -92,7 +92,8 @@ Support makeSupport(float x1, float y1, float x2, float y2) {
   const float direction = std::atan2(y2 - y1, x2 - x1);
   support.along_x = std::cos(direction);
   support.along_y = std::sin(direction);
-  const float half_length = static_cast<float>((support.samples - 1) / 2);
+  const int half_samples = (support.samples - 1) / 2;
+  const float half_length = static_cast<float>(half_samples);
   const float half_rows = static_cast<float>(kHalfRows);
   const float middle_x = 0.5F * (x1 + x2);
   const float middle_y = 0.5F * (y1 + y2);

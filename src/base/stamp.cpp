@@ -80,8 +80,9 @@ std::string formatStamp(Stamp stamp) {
 
 double toSeconds(Stamp stamp) {
   // The parts apart: a stamp of today has more digits than a double.
-  return static_cast<double>(stamp / kNanosecondsPerSecond) +
-         static_cast<double>(stamp % kNanosecondsPerSecond) * 1e-9;
+  const Stamp whole = stamp / kNanosecondsPerSecond;
+  const Stamp rest = stamp % kNanosecondsPerSecond;
+  return static_cast<double>(whole) + static_cast<double>(rest) * 1e-9;
 }
 
 Stamp fromSeconds(double seconds) {

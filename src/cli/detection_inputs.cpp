@@ -4,22 +4,13 @@
 #include <boost/program_options/value_semantic.hpp>
 
 #include "evolin_ros/dataset/csv.h"
+#include "evolin_ros/dataset/image_file.h"
 #include "file_pairing.h"
 #include "image_size.h"
 
 namespace evolin::cli {
 
 namespace po = boost::program_options;
-
-namespace {
-
-const std::vector<std::string>& imageExtensions() {
-  static const std::vector<std::string> kExtensions = {".png", ".jpg", ".jpeg", ".bmp", ".pgm",
-                                                       ".ppm", ".tif", ".tiff", ".webp"};
-  return kExtensions;
-}
-
-}  // namespace
 
 void addDetectionOptions(const std::string& thresholds_help, DetectionFolders* folders,
                          po::options_description* description) {
@@ -43,6 +34,11 @@ LineSegments DetectionFiles::readPredicted() const {
 LineSegments DetectionFiles::readGroundTruth() const { return readLinesCsv(ground_truth); }
 
 ImageSize DetectionFiles::readSize() const { return readImageSize(image); }
+
+ParseError DetectionFiles::locate(const GroundTruthError& error) const {
+  // Readers refuse blank rows before the last line, so rows are lines.
+  return {ground_truth.string(), static_cast<int>(error.row()) + 1, error.what()};
+}
 
 std::vector<DetectionFiles> listDetectionFiles(const DetectionFolders& folders) {
   const FileSet truth = listByStem("true lines", folders.ground_truth, {".csv"});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "evolin_ros/base/error.h"
 #include "evolin_ros/geometry/image_size.h"
 #include "evolin_ros/geometry/line_segment.h"
 
@@ -38,6 +39,9 @@ struct DetectionFiles {
   LineSegments readPredicted() const;
   LineSegments readGroundTruth() const;
   ImageSize readSize() const;
+
+  /// The same with the file and line that the row stands in.
+  ParseError locate(const GroundTruthError& error) const;
 };
 
 /// Frames by stem: those with ground truth; more images are fine. Throws Error naming the stem when

@@ -1,6 +1,7 @@
 // `evolin evaluate association`.
 #include <boost/program_options/value_semantic.hpp>
 
+#include "classification_entries.h"
 #include "evaluate_families.h"
 #include "evaluate_options.h"
 #include "evolin_ros/dataset/csv.h"
@@ -19,10 +20,6 @@ constexpr const char* kUsage =
     "Scores matched line pairs against the true ones: precision, recall and F-score over all pairs "
     "of frames.\n\n"
     "Usage: evolin evaluate association --pred-associations DIR --gt-associations DIR [OPTIONS]";
-
-std::vector<double> figuresOf(const Classification& counts) {
-  return {counts.precision(), counts.recall(), counts.fScore()};
-}
 
 }  // namespace
 
@@ -55,26 +52,8 @@ int evaluateAssociation(const std::vector<std::string>& arguments) {
                 pairs[task] = classifyAssociation(readIndexPairsCsv(predicted.at(stems[task])),
                                                   readIndexPairsCsv(truth.at(stems[task])));
               });
-  Classification sum;
-  for (const Classification& pair : pairs) {
-    sum += pair;
-  }
-  const std::vector<ConfidenceInterval> intervals =
-      intervalsFor(options, pairs.size(), [&pairs](const std::vector<std::uint32_t>& weights) {
-        return figuresOf(weightedSum(pairs, weights));
-      });
-
-  const std::vector<std::string> names = {"precision", "recall", "fscore"};
-  const std::vector<double> values = figuresOf(sum);
-  std::vector<PublishedEntry> entries(names.size());
-  for (std::size_t index = 0; index < names.size(); ++index) {
-    entries[index].name = names[index];
-    entries[index].value = values[index];
-    if (!intervals.empty()) {
-      entries[index].confidence_interval = intervals[index];
-    }
-  }
-  deliverResults(options, entries);
+  const ClassificationWords words = {"no pairs are predicted", "no true pairs are given"};
+  deliverResults(options, classificationEntries({}, pairs, words, options));
   return kExitDone;
 }
 

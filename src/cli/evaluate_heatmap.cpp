@@ -1,6 +1,7 @@
 // `evolin evaluate heatmap`.
 #include <utility>
 
+#include "classification_entries.h"
 #include "detection_inputs.h"
 #include "evaluate_families.h"
 #include "evaluate_options.h"
@@ -52,8 +53,12 @@ HeatmapMetrics measure(const Request& request, const HeatmapMetrics& empty) {
   std::vector<HeatmapMetrics> parts(static_cast<std::size_t>(workers), empty);
   forEachTask(frames.size(), workers, [&](std::size_t task, std::size_t worker) {
     const DetectionFiles& frame = frames[task];
-    parts[worker].addFrame(static_cast<std::uint32_t>(task), frame.stem, frame.readSize(),
-                           frame.readPredicted(), frame.readGroundTruth());
+    try {
+      parts[worker].addFrame(static_cast<std::uint32_t>(task), frame.stem, frame.readSize(),
+                             frame.readPredicted(), frame.readGroundTruth());
+    } catch (const GroundTruthError& error) {
+      throw frame.locate(error);
+    }
   });
   HeatmapMetrics metrics = empty;
   for (const HeatmapMetrics& part : parts) {
@@ -62,33 +67,17 @@ HeatmapMetrics measure(const Request& request, const HeatmapMetrics& empty) {
   return metrics;
 }
 
-/// One entry a name, the figures that `figuresOf` gives for one weight a frame.
-template <typename FiguresOf>
-std::vector<PublishedEntry> entriesFor(const std::vector<std::string>& names,
-                                       const EvaluateOptions& options, std::size_t frames,
-                                       const FiguresOf& figuresOf) {
-  const std::vector<double> values = figuresOf(std::vector<std::uint32_t>(frames, 1));
-  const std::vector<ConfidenceInterval> intervals = intervalsFor(options, frames, figuresOf);
-  std::vector<PublishedEntry> entries(names.size());
-  for (std::size_t index = 0; index < names.size(); ++index) {
-    entries[index].name = names[index];
-    entries[index].value = values[index];
-    if (!intervals.empty()) {
-      entries[index].confidence_interval = intervals[index];
-    }
+/// Average precision and largest F-score of the sequence in which frame f occurs weights[f] times;
+/// `frames` by setting.
+std::vector<double> summaryOf(const std::vector<std::vector<Classification>>& frames,
+                              const std::vector<std::uint32_t>& weights) {
+  std::vector<Classification> counts;
+  counts.reserve(frames.size());
+  for (const std::vector<Classification>& setting : frames) {
+    counts.push_back(weightedSum(setting, weights));
   }
-  return entries;
-}
-
-std::vector<PublishedEntry> classificationEntries(const HeatmapMetrics& metrics,
-                                                  const EvaluateOptions& options) {
-  const std::vector<Classification> frames = metrics.frameClassifications();
-  return entriesFor(
-      {"precision", "recall", "fscore"}, options, frames.size(),
-      [&frames](const std::vector<std::uint32_t>& weights) {
-        const Classification counts = weightedSum(frames, weights);
-        return std::vector<double>{counts.precision(), counts.recall(), counts.fScore()};
-      });
+  const HeatmapSummary summary = summarizeHeatmap(counts);
+  return {summary.average_precision, summary.max_f_score};
 }
 
 std::vector<PublishedEntry> curveEntries(const HeatmapMetrics& metrics,
@@ -97,22 +86,29 @@ std::vector<PublishedEntry> curveEntries(const HeatmapMetrics& metrics,
   for (std::size_t setting = 0; setting < metrics.settings(); ++setting) {
     frames.push_back(metrics.frameClassifications(setting));
   }
+  const std::vector<std::uint32_t> once(metrics.frames(), 1);
+  const std::vector<double> values = summaryOf(frames, once);
+  const std::vector<ConfidenceInterval> intervals = intervalsFor(
+      options, metrics.frames(),
+      [&frames](const std::vector<std::uint32_t>& weights) { return summaryOf(frames, weights); });
+  // Thresholds fall, so the last setting has all lines that any has.
+  const std::string undefined =
+      whyUndefined(weightedSum(frames.back(), once),
+                   {"no line has a score above a threshold", detectionWords().nothing_true});
   PublishedEntry curve;
   curve.name = "pr_curve";
   PrecisionRecallCurve points = metrics.curve();
   curve.value = Curve{std::move(points.recall), std::move(points.precision)};
   std::vector<PublishedEntry> entries = {std::move(curve)};
-  for (PublishedEntry& entry :
-       entriesFor({"average_precision", "max_fscore"}, options, metrics.frames(),
-                  [&frames](const std::vector<std::uint32_t>& weights) {
-                    std::vector<Classification> counts;
-                    counts.reserve(frames.size());
-                    for (const std::vector<Classification>& setting : frames) {
-                      counts.push_back(weightedSum(setting, weights));
-                    }
-                    const HeatmapSummary summary = summarizeHeatmap(counts);
-                    return std::vector<double>{summary.average_precision, summary.max_f_score};
-                  })) {
+  const std::vector<std::string> names = {"average_precision", "max_fscore"};
+  for (std::size_t index = 0; index < names.size(); ++index) {
+    PublishedEntry entry;
+    entry.name = names[index];
+    entry.value = values[index];
+    entry.undefined = undefined;
+    if (!intervals.empty()) {
+      entry.confidence_interval = intervals[index];
+    }
     entries.push_back(std::move(entry));
   }
   return entries;
@@ -131,7 +127,8 @@ int evaluateHeatmap(const std::vector<std::string>& arguments) {
   }
   const HeatmapMetrics metrics = measure(request, HeatmapMetrics(options));
   deliverResults(request.common, !request.folders.scored()
-                                     ? classificationEntries(metrics, request.common)
+                                     ? classificationEntries({}, metrics.frameClassifications(),
+                                                             detectionWords(), request.common)
                                      : curveEntries(metrics, request.common));
   return kExitDone;
 }

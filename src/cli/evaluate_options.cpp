@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Says that a run of this verb made the folder, so that the next one may overwrite its files.
+/// Lists the files of its folder that runs of this verb made, so that the next one may overwrite
+/// them.
 constexpr const char* kMarker = ".evolin-evaluate";
 
 constexpr int kMaxThreads = 1024;
@@ -36,12 +37,30 @@ void requireRange(const std::string& option, int value, int low, int high) {
   }
 }
 
-void writeResult(const EvaluateOptions& options, const std::string& json) {
+/// File names of the marker; none where there is no marker.
+std::vector<std::string> filesMade(const EvaluateOptions& options) {
+  const fs::path marker = fs::path(options.output) / kMarker;
   std::error_code ignored;
-  const bool ours = !fs::exists(options.output, ignored) || fs::is_empty(options.output, ignored);
+  return fs::is_regular_file(marker, ignored) ? readLines(marker) : std::vector<std::string>();
+}
+
+bool wasMade(const EvaluateOptions& options) {
+  const std::vector<std::string> made = filesMade(options);
+  return std::find(made.begin(), made.end(), options.output_file) != made.end();
+}
+
+void markAsMade(const EvaluateOptions& options) {
+  std::string list;
+  for (const std::string& name : filesMade(options)) {
+    list += name + "\n";
+  }
+  writeFileAtomically(fs::path(options.output) / kMarker, list + options.output_file + "\n");
+}
+
+void writeResult(const EvaluateOptions& options, const std::string& json) {
   writeFileAtomically(resultFile(options), json + "\n");
-  if (ours) {
-    writeFileAtomically(fs::path(options.output) / kMarker, "made by evolin evaluate\n");
+  if (!wasMade(options)) {
+    markAsMade(options);
   }
   std::cerr << "written: " << resultFile(options).string() << '\n';
 }
@@ -93,8 +112,7 @@ void checkEvaluateOptions(const EvaluateOptions& options) {
     return;
   }
   std::error_code ignored;
-  if (fs::exists(resultFile(options), ignored) &&
-      !fs::exists(fs::path(options.output) / kMarker, ignored)) {
+  if (fs::exists(resultFile(options), ignored) && !wasMade(options)) {
     throw Error(resultFile(options).string() +
                 ": exists and was not made by evolin evaluate; expected another --output, or "
                 "--force to overwrite it");

@@ -44,7 +44,8 @@ int threadsFor(const EvaluateOptions& options, std::size_t tasks);
 std::vector<ConfidenceInterval> intervalsFor(const EvaluateOptions& options, std::size_t frames,
                                              const WeightedFigures& figures);
 
-/// Writes DIR/FILE where --output was given, and prints the results in the asked form.
+/// Writes DIR/FILE where --output was given, so that later runs may overwrite that file, and prints
+/// the results in the asked form.
 void deliverResults(const EvaluateOptions& options, const std::vector<PublishedEntry>& entries);
 
 }  // namespace evolin::cli

@@ -8,7 +8,6 @@
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/dataset/camera_file.h"
 #include "evolin_ros/dataset/csv.h"
-#include "evolin_ros/dataset/image_file.h"
 #include "evolin_ros/evaluation/pose_task.h"
 #include "evolin_ros/metrics/pose_error.h"
 #include "options.h"
@@ -24,13 +23,14 @@ namespace {
 constexpr const char* kUsage =
     "Estimates the motion between frames from matched lines with depth, in both directions, and "
     "scores it: medians of rotation error and translation angle (degrees) and of translation error "
-    "(metres), area under the cumulative curve of angles. The frames step is the number of line "
-    "files less the number of association files.\n\n"
+    "(metres), area under the cumulative curve of angles. The frames step is the number of frames "
+    "less the number of association files.\n\n"
     "Usage: evolin evaluate pose --lines DIR --associations DIR --depths DIR --poses FILE "
     "--depth-associations FILE --calibration-matrix FILE [OPTIONS]";
 
 struct Request {
-  PoseFiles files;
+  FrameFolders folders;
+  std::string associations;
   std::string calibration_matrix;
   std::vector<double> thresholds = {1, 3, 5, 10};
   double depth_factor = Camera().depth_factor;
@@ -42,17 +42,17 @@ struct Request {
 
 void addOptions(Request* request, po::options_description* description) {
   auto add = description->add_options();
-  add("lines,l", po::value(&request->files.lines)->value_name("DIR")->required(),
+  add("lines,l", po::value(&request->folders.lines)->value_name("DIR")->required(),
       "lines, one CSV (rows x1,y1,x2,y2 in pixels) a frame, frames in order of names");
-  add("associations,a", po::value(&request->files.associations)->value_name("DIR")->required(),
+  add("associations,a", po::value(&request->associations)->value_name("DIR")->required(),
       "matches, one CSV (rows i,j of line indices) a pair of frames, pairs in order of names");
-  add("depths,d", po::value(&request->files.depths)->value_name("DIR")->required(),
+  add("depths,d", po::value(&request->folders.depths)->value_name("DIR")->required(),
       "depth images, 16 bit, in order of names");
-  add("poses,p", po::value(&request->files.poses)->value_name("FILE")->required(),
-      "camera poses in TUM's form, camera to world, a row a frame; the first column is not looked "
-      "at");
+  add("poses,p", po::value(&request->folders.poses)->value_name("FILE")->required(),
+      "camera poses in TUM's form, camera to world, a row a line file, or a row each of "
+      "--depth-associations; the first column is not looked at");
   add("depth-associations,A",
-      po::value(&request->files.depth_associations)->value_name("FILE")->required(),
+      po::value(&request->folders.depth_associations)->value_name("FILE")->required(),
       "rows of image index and depth index, both from 0");
   add("calibration-matrix,c",
       po::value(&request->calibration_matrix)->value_name("FILE")->required(),
@@ -63,7 +63,7 @@ void addOptions(Request* request, po::options_description* description) {
           ->multitoken()
           ->default_value(request->thresholds, "1 3 5 10"),
       "ends of the cumulative curve in degrees; several may follow");
-  add("pose-offset", po::value(&request->files.pose_offset)->value_name("N")->default_value(0),
+  add("pose-offset", po::value(&request->folders.pose_offset)->value_name("N")->default_value(0),
       "image i takes pose row i + N; pairs of an image that gets none are left out and counted "
       "(ICL-NUIM: -1 is the true pairing, 0 the published one)");
   add("depth-factor",
@@ -109,28 +109,41 @@ bool readRequest(const std::vector<std::string>& arguments, Request* request) {
   return true;
 }
 
-LiftedLines liftFrame(const Request& request, const PoseMethod& method, const Camera& camera,
-                      const PoseFrame& frame) {
-  const DepthMap depth(readStoredDepth(frame.depth), request.depth_factor);
-  return liftEndpoints(frame.stem, readLinesCsv(frame.lines), depth, camera, method.endpoints());
+/// What all pairs share.
+struct Setup {
+  PoseMethod method;
+  Camera camera;
+  DepthImages depths;
+};
+
+LiftedLines liftFrame(const Setup& setup, const FrameFiles& frame) {
+  return liftEndpoints(frame.stem, readLinesCsv(frame.lines), setup.depths.read(frame),
+                       setup.camera, setup.method.endpoints());
 }
 
-PosePair measurePair(const Request& request, const PoseMethod& method, const Camera& camera,
-                     const PoseFrame& first, const PoseFrame& second,
+PosePair measurePair(const Setup& setup, const FrameFiles& first, const FrameFiles& second,
                      const std::filesystem::path& associations) {
-  PoseTask task;
-  try {
-    task.matches =
-        liftedMatches(liftFrame(request, method, camera, first),
-                      liftFrame(request, method, camera, second), readIndexPairsCsv(associations));
-  } catch (const ParseError&) {
-    throw;
-  } catch (const Error& error) {
-    throw ParseError(associations.string(), 0, error.what());
+  const LiftedLines first_lines = liftFrame(setup, first);
+  const LiftedLines second_lines = liftFrame(setup, second);
+  const IndexPairs matches = readIndexPairsCsv(associations);
+  for (std::size_t row = 0; row < matches.size(); ++row) {
+    const auto check = [&](std::int64_t index, const LiftedLines& lines, const FrameFiles& frame,
+                           const std::string& which) {
+      if (static_cast<std::size_t>(index) >= lines.size()) {
+        throw ParseError(associations.string(), static_cast<int>(row) + 1,
+                         "names line " + std::to_string(index) + " of the " + which +
+                             " frame, expected 0 to " + std::to_string(lines.size()) +
+                             " exclusive (the lines of " + frame.lines.string() + ")");
+      }
+    };
+    check(matches[row].first, first_lines, first, "first");
+    check(matches[row].second, second_lines, second, "second");
   }
-  task.camera = camera;
+  PoseTask task;
+  task.matches = liftedMatches(first_lines, second_lines, matches);
+  task.camera = setup.camera;
   task.truth = relativeMotion(*first.pose, *second.pose);
-  return runPoseTask(task, method).pair;
+  return runPoseTask(task, setup.method).pair;
 }
 
 /// Entries of one frames step, in the published order.
@@ -155,13 +168,13 @@ class Entries {
 };
 
 void addPublished(const Request& request, const PoseErrorMetrics& metrics, Entries* entries) {
-  const auto figuresOf = [](const PoseErrors& medians) {
+  const auto figures_of = [](const PoseErrors& medians) {
     return std::vector<double>{medians.rotation, medians.translation_angle, medians.translation};
   };
-  const std::vector<double> medians = figuresOf(metrics.medians());
+  const std::vector<double> medians = figures_of(metrics.medians());
   const std::vector<ConfidenceInterval> intervals =
       intervalsFor(request.common, metrics.pairs(), [&](const std::vector<std::uint32_t>& weights) {
-        return figuresOf(metrics.medians(weights));
+        return figures_of(metrics.medians(weights));
       });
   const std::vector<std::string> names = {"median_angular_rotation_error",
                                           "median_angular_translation_error",
@@ -187,14 +200,15 @@ void addStatistics(const Request& request, const PoseErrorMetrics& metrics, Entr
       {"angular_rotation_error", metrics.rotationStatistics()},
       {"angular_translation_error", metrics.translationAngleStatistics()},
       {"absolute_translation_error", metrics.translationStatistics()}};
+  const std::string nothing_found = metrics.failed() == metrics.pairs() ? "no pose was found" : "";
   for (const auto& [name, statistics] : groups) {
-    entries->add(name + "_rmse", statistics.rmse);
-    entries->add(name + "_mean", statistics.mean);
-    entries->add(name + "_median", statistics.median);
-    entries->add(name + "_std", statistics.std);
-    entries->add(name + "_min", statistics.min);
-    entries->add(name + "_max", statistics.max);
-    entries->add(name + "_sse", statistics.sse);
+    const std::vector<std::pair<std::string, double>> figures = {
+        {"_rmse", statistics.rmse}, {"_mean", statistics.mean}, {"_median", statistics.median},
+        {"_std", statistics.std},   {"_min", statistics.min},   {"_max", statistics.max},
+        {"_sse", statistics.sse}};
+    for (const auto& [suffix, value] : figures) {
+      entries->add(name + suffix, value).undefined = nothing_found;
+    }
   }
   entries->add("success_rate", metrics.successRate());
   entries->add("pairs", static_cast<double>(metrics.pairs()));
@@ -206,9 +220,12 @@ void addStatistics(const Request& request, const PoseErrorMetrics& metrics, Entr
 void printCoverage(const Request& request, const PoseInputs& inputs,
                    const PoseErrorMetrics& metrics) {
   std::cerr << metrics.pairs() << " pairs of frames " << inputs.step << " apart, strategy "
-            << request.strategy << ", image i with pose row i"
-            << (request.files.pose_offset < 0 ? " - " : " + ")
-            << std::abs(request.files.pose_offset) << ": " << metrics.failed() << " failed, "
+            << request.strategy << ", "
+            << (inputs.list.by_depth_list
+                    ? "row i of " + request.folders.depth_associations + " with pose row i"
+                    : "image i with pose row i")
+            << (request.folders.pose_offset < 0 ? " - " : " + ")
+            << std::abs(request.folders.pose_offset) << ": " << metrics.failed() << " failed, "
             << metrics.illConditioned() << " ill-conditioned, " << metrics.nearStatic()
             << " moved less than 1 cm (their translation angle means little)\n";
   if (inputs.without_pose + inputs.without_depth > 0) {
@@ -224,16 +241,17 @@ int evaluatePose(const std::vector<std::string>& arguments) {
   if (!readRequest(arguments, &request)) {
     return kExitDone;
   }
-  const PoseMethod method(
-      {protocolOf(request.common), parsePoseStrategy(request.strategy), request.seed});
   const Camera camera = readCalibrationMatrix(request.calibration_matrix);
-  const PoseInputs inputs = listPoseInputs(request.files);
+  const PoseInputs inputs = listPoseInputs(request.folders, request.associations);
+  const Setup setup = {
+      PoseMethod({protocolOf(request.common), parsePoseStrategy(request.strategy), request.seed}),
+      camera, DepthImages(inputs.list.frames, request.depth_factor)};
   std::vector<PosePair> pairs(inputs.pairs.size());
   forEachTask(pairs.size(), threadsFor(request.common, pairs.size()),
               [&](std::size_t task, std::size_t /*worker*/) {
                 const PosePairFiles& pair = inputs.pairs[task];
-                pairs[task] = measurePair(request, method, camera, inputs.frames[pair.first],
-                                          inputs.frames[pair.second], pair.associations);
+                pairs[task] = measurePair(setup, inputs.list.frames[pair.first],
+                                          inputs.list.frames[pair.second], pair.associations);
               });
   PoseErrorMetrics metrics;
   for (const PosePair& pair : pairs) {

@@ -10,11 +10,8 @@
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/dataset/camera_file.h"
 #include "evolin_ros/dataset/csv.h"
-#include "evolin_ros/dataset/depth_associations.h"
-#include "evolin_ros/dataset/image_file.h"
-#include "evolin_ros/dataset/trajectory.h"
 #include "evolin_ros/metrics/repeatability.h"
-#include "file_pairing.h"
+#include "frame_files.h"
 #include "options.h"
 #include "parallel.h"
 
@@ -35,15 +32,10 @@ constexpr const char* kUsage =
 constexpr std::size_t kChunk = 64;
 
 struct Request {
-  std::string predicted;
-  std::string scores;            ///< empty: unscored
+  FrameFolders folders;
   std::string score_thresholds;  ///< file; empty: none
-  std::string depths;
-  std::string poses;
-  std::string depth_associations;
   std::string calibration_matrix;
   double depth_factor = Camera().depth_factor;
-  int pose_offset = 0;
   RepeatabilityOptions metric;
   EvaluateOptions common;
 };
@@ -59,19 +51,20 @@ std::string listOf(const std::vector<Number>& values) {
 
 void addOptions(Request* request, po::options_description* description) {
   auto add = description->add_options();
-  add("pred-lines,p", po::value(&request->predicted)->value_name("DIR")->required(),
+  add("pred-lines,p", po::value(&request->folders.lines)->value_name("DIR")->required(),
       "detected lines, one CSV (rows x1,y1,x2,y2 in pixels) a frame, frames in order of names");
-  add("scores,s", po::value(&request->scores)->value_name("DIR"),
+  add("scores,s", po::value(&request->folders.scores)->value_name("DIR"),
       "scores of the lines, one CSV (a score a row) a frame, under the same names");
   add("score-thresholds,S", po::value(&request->score_thresholds)->value_name("FILE"),
       "text file of numbers, needed with --scores; each gives figures of the lines with a higher "
       "score");
-  add("depths,D", po::value(&request->depths)->value_name("DIR")->required(),
+  add("depths,D", po::value(&request->folders.depths)->value_name("DIR")->required(),
       "depth images, 16 bit, in order of names");
-  add("poses,P", po::value(&request->poses)->value_name("FILE")->required(),
-      "camera poses in TUM's form, a row a frame; the first column is not looked at");
+  add("poses,P", po::value(&request->folders.poses)->value_name("FILE")->required(),
+      "camera poses in TUM's form, camera to world, a row a line file, or a row each of "
+      "--depth-associations; the first column is not looked at");
   add("depth-associations,a",
-      po::value(&request->depth_associations)->value_name("FILE")->required(),
+      po::value(&request->folders.depth_associations)->value_name("FILE")->required(),
       "rows of image index and depth index, both from 0");
   add("calibration-matrix,c",
       po::value(&request->calibration_matrix)->value_name("FILE")->required(),
@@ -89,7 +82,7 @@ void addOptions(Request* request, po::options_description* description) {
           ->multitoken()
           ->default_value(request->metric.frame_steps, listOf(request->metric.frame_steps)),
       "frames from the first to the second of a pair; several may follow");
-  add("pose-offset", po::value(&request->pose_offset)->value_name("N")->default_value(0),
+  add("pose-offset", po::value(&request->folders.pose_offset)->value_name("N")->default_value(0),
       "image i takes pose row i + N; images that get none are left out and counted");
   add("depth-factor",
       po::value(&request->depth_factor)
@@ -108,7 +101,7 @@ bool readRequest(const std::vector<std::string>& arguments, Request* request) {
   }
   checkEvaluateOptions(request->common);
   request->metric.protocol = protocolOf(request->common);
-  if (request->scores.empty() != request->score_thresholds.empty()) {
+  if (request->folders.scores.empty() != request->score_thresholds.empty()) {
     throw UsageError(
         "--scores and --score-thresholds need each other: figures are of the lines above a score");
   }
@@ -124,76 +117,26 @@ bool readRequest(const std::vector<std::string>& arguments, Request* request) {
   return true;
 }
 
-/// Where a frame's parts are; empty depth or no pose: the frame is left out.
-struct FrameSource {
-  std::string stem;
-  std::filesystem::path lines;
-  std::filesystem::path scores;  ///< empty: unscored
-  std::filesystem::path depth;
-  std::optional<Pose> pose;
-
-  bool usable() const { return !depth.empty() && pose.has_value(); }
-};
-
-void pairPoses(const Request& request, std::vector<FrameSource>* frames) {
-  const std::vector<Pose> poses = readPoseRows(request.poses);
-  const auto count = static_cast<std::int64_t>(poses.size());
-  for (std::size_t index = 0; index < frames->size(); ++index) {
-    const std::int64_t row = static_cast<std::int64_t>(index) + request.pose_offset;
-    if (row >= 0 && row < count) {
-      (*frames)[index].pose = poses[static_cast<std::size_t>(row)];
-    } else if (request.pose_offset == 0) {
-      throw Error(request.poses + ": " + std::to_string(count) + " poses, none for frame " +
-                  (*frames)[index].stem + "; expected one a frame (" +
-                  std::to_string(frames->size()) + ")");
-    }
-  }
-}
-
-std::vector<FrameSource> listFrames(const Request& request) {
-  const FileSet lines = listByStem("detected lines", request.predicted, {".csv"});
-  FileSet scores;
-  if (!request.scores.empty()) {
-    scores = listByStem("scores", request.scores, {".csv"});
-    requireSameStems(lines, scores);
-  }
-  std::vector<FrameSource> frames;
-  for (const auto& [stem, file] : lines.files) {
-    FrameSource frame;
-    frame.stem = stem;
-    frame.lines = file;
-    if (!request.scores.empty()) {
-      frame.scores = scores.at(stem);
-    }
-    frames.push_back(std::move(frame));
-  }
-  const std::vector<std::filesystem::path> depths =
-      listFiles(request.depths, {".png", ".tif", ".tiff", ".pgm"});
-  const std::vector<std::optional<std::size_t>> rows =
-      readDepthAssociations(request.depth_associations, frames.size(), depths.size());
-  for (std::size_t index = 0; index < frames.size(); ++index) {
-    if (rows[index]) {
-      frames[index].depth = depths[*rows[index]];
-    }
-  }
-  pairPoses(request, &frames);
-  return frames;
-}
-
 /// Says on standard error what is left out; throws when a frame step is left without pairs.
-void checkCoverage(const Request& request, const std::vector<FrameSource>& frames) {
+void checkCoverage(const Request& request, const FrameList& list) {
+  const std::vector<FrameFiles>& frames = list.frames;
+  if (list.by_depth_list) {
+    std::cerr << "frames are the " << frames.size() << " rows of "
+              << request.folders.depth_associations << ", each with the pose of its row\n";
+  }
   const auto say = [&frames](std::size_t count, const std::string& lack) {
     if (count > 0) {
       std::cerr << count << " of " << frames.size() << " frames left out: " << lack << '\n';
     }
   };
-  const auto countOf = [&frames](bool (*lacks)(const FrameSource&)) {
+  const auto count_of = [&frames](bool (*lacks)(const FrameFiles&)) {
     return static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), lacks));
   };
-  say(countOf([](const FrameSource& frame) { return frame.depth.empty(); }),
-      "no depth in " + request.depth_associations);
-  say(countOf([](const FrameSource& frame) { return !frame.pose.has_value(); }),
-      "no pose in " + request.poses + " with --pose-offset " + std::to_string(request.pose_offset));
+  say(count_of([](const FrameFiles& frame) { return frame.depth.empty(); }),
+      "no depth in " + request.folders.depth_associations);
+  say(count_of([](const FrameFiles& frame) { return !frame.pose.has_value(); }),
+      "no pose in " + request.folders.poses + " with --pose-offset " +
+          std::to_string(request.folders.pose_offset));
   for (const int step : request.metric.frame_steps) {
     const auto distance = static_cast<std::size_t>(step);
     std::size_t pairs = 0;
@@ -204,18 +147,19 @@ void checkCoverage(const Request& request, const std::vector<FrameSource>& frame
       throw Error("--frames-steps " + std::to_string(step) +
                   ": no pair of frames so far apart has "
                   "depth and poses, of " +
-                  std::to_string(frames.size()) + " frames in " + request.predicted +
+                  std::to_string(frames.size()) + " frames in " + request.folders.lines +
                   "; expected more frames or a smaller step");
     }
   }
 }
 
-SpatialFrame readFrame(const Request& request, const Camera& camera, const FrameSource& source) {
+SpatialFrame readFrame(const Request& request, const Camera& camera, const DepthImages& depths,
+                       const FrameFiles& source) {
   const LineSegments lines = source.scores.empty()
                                  ? readLinesCsv(source.lines)
                                  : readScoredLinesCsv(source.lines, source.scores);
-  const DepthMap depth(readStoredDepth(source.depth), request.depth_factor);
-  return liftLines(request.metric.protocol, source.stem, lines, depth, camera, *source.pose);
+  return liftLines(request.metric.protocol, source.stem, lines, depths.read(source), camera,
+                   *source.pose);
 }
 
 /// All pairs of one frame step.
@@ -226,8 +170,9 @@ struct StepResult {
 
 /// Reads and scores the sequence, spread over threads, holding a stretch of frames at a time.
 std::vector<StepResult> measure(const Request& request, const RepeatabilityMetrics& metrics,
-                                const std::vector<FrameSource>& sources) {
+                                const std::vector<FrameFiles>& sources) {
   const Camera camera = readCalibrationMatrix(request.calibration_matrix);
+  const DepthImages depths(sources, request.depth_factor);
   const std::vector<int>& steps = request.metric.frame_steps;
   const auto reach = static_cast<std::size_t>(*std::max_element(steps.begin(), steps.end()));
   struct Pair {
@@ -248,7 +193,7 @@ std::vector<StepResult> measure(const Request& request, const RepeatabilityMetri
                 [&](std::size_t task, std::size_t /*worker*/) {
                   const std::size_t index = ready + task;
                   if (sources[index].usable()) {
-                    frames[index] = readFrame(request, camera, sources[index]);
+                    frames[index] = readFrame(request, camera, depths, sources[index]);
                   }
                 });
     ready = needed;
@@ -305,6 +250,23 @@ std::vector<ConfidenceInterval> intervalsOf(const Request& request, const StepRe
       });
 }
 
+/// Why the figures of one setting have no value; empty where they have one.
+struct Undefined {
+  std::string repeatability;
+  std::string localization_error;
+};
+
+Undefined whyUndefined(const StepResult& result, std::size_t index) {
+  std::size_t lines = 0;
+  std::size_t found = 0;
+  for (const std::vector<PairRepeatability>& pair : result.pairs) {
+    lines += pair[index].lines;
+    found += std::size_t{pair[index].forward.count} + pair[index].backward.count;
+  }
+  return {lines == 0 ? "no lines were detected or none has a score above the threshold" : "",
+          found == 0 ? "no line was found again" : ""};
+}
+
 }  // namespace
 
 int evaluateRepeatability(const std::vector<std::string>& arguments) {
@@ -315,10 +277,10 @@ int evaluateRepeatability(const std::vector<std::string>& arguments) {
   if (!request.score_thresholds.empty()) {
     request.metric.score_thresholds = readNumbers(request.score_thresholds);
   }
-  const std::vector<FrameSource> frames = listFrames(request);
-  checkCoverage(request, frames);
+  const FrameList list = listFrames(request.folders);
+  checkCoverage(request, list);
   RepeatabilityMetrics metrics(request.metric);
-  const std::vector<StepResult> results = measure(request, metrics, frames);
+  const std::vector<StepResult> results = measure(request, metrics, list.frames);
 
   std::vector<PublishedEntry> entries(2 * metrics.settings().size());
   for (std::size_t step = 0; step < results.size(); ++step) {
@@ -331,6 +293,9 @@ int evaluateRepeatability(const std::vector<std::string>& arguments) {
       const RepeatabilityFigures figures = metrics.figures(setting).value();
       PublishedEntry repeatability = entryFor("repeatability", metrics.settings()[setting]);
       PublishedEntry error = entryFor("localization_error", metrics.settings()[setting]);
+      const Undefined undefined = whyUndefined(results[step], index);
+      repeatability.undefined = undefined.repeatability;
+      error.undefined = undefined.localization_error;
       repeatability.value = figures.repeatability;
       error.value = figures.localization_error;
       if (!intervals.empty()) {

@@ -2,12 +2,12 @@
 #include <boost/program_options/value_semantic.hpp>
 #include <limits>
 
+#include "classification_entries.h"
 #include "detection_inputs.h"
 #include "evaluate_families.h"
 #include "evaluate_options.h"
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/dataset/csv.h"
-#include "evolin_ros/dataset/image_file.h"
 #include "evolin_ros/metrics/vectorized.h"
 #include "options.h"
 #include "parallel.h"
@@ -77,9 +77,13 @@ VectorizedMetrics measure(const Request& request) {
   std::vector<VectorizedMetrics> parts(static_cast<std::size_t>(workers), empty);
   forEachTask(frames.size(), workers, [&](std::size_t task, std::size_t worker) {
     const DetectionFiles& frame = frames[task];
-    parts[worker].addFrame(static_cast<std::uint32_t>(task), frame.stem, frame.readSize(),
-                           frame.readPredicted(), frame.readGroundTruth(),
-                           request.folders.scored());
+    try {
+      parts[worker].addFrame(static_cast<std::uint32_t>(task), frame.stem, frame.readSize(),
+                             frame.readPredicted(), frame.readGroundTruth(),
+                             request.folders.scored());
+    } catch (const GroundTruthError& error) {
+      throw frame.locate(error);
+    }
   });
   VectorizedMetrics metrics = empty;
   for (const VectorizedMetrics& part : parts) {
@@ -114,7 +118,8 @@ void addRankingEntries(const VectorizedMetrics& metrics, const EvaluateOptions& 
       });
   for (std::size_t setting = 0; setting < metrics.settings().size(); ++setting) {
     PublishedEntry area = entryFor("average_precision", metrics.settings()[setting]);
-    area.value = orNan(values.empty() ? std::nullopt : values[setting]);
+    area.value = orNan(values[setting]);
+    area.undefined = whyUndefined(metrics.classification(setting), detectionWords());
     if (!intervals.empty()) {
       area.confidence_interval = intervals[setting];
     }
@@ -130,24 +135,16 @@ void addClassificationEntries(const VectorizedMetrics& metrics,
                               const std::optional<double>& score_threshold,
                               const EvaluateOptions& options,
                               std::vector<PublishedEntry>* entries) {
+  ClassificationWords words = detectionWords();
+  if (score_threshold) {
+    words.nothing_predicted = "no line has a score above the threshold";
+  }
   for (std::size_t setting = 0; setting < metrics.settings().size(); ++setting) {
+    PublishedEntry prototype = entryFor("", metrics.settings()[setting]);
+    prototype.score_threshold = score_threshold;
     const std::vector<Classification> frames = metrics.frameClassifications(
         setting, score_threshold.value_or(-std::numeric_limits<double>::infinity()));
-    const auto figuresOf = [&frames](const std::vector<std::uint32_t>& weights) {
-      const Classification counts = weightedSum(frames, weights);
-      return std::vector<double>{counts.precision(), counts.recall(), counts.fScore()};
-    };
-    const std::vector<double> values = figuresOf(std::vector<std::uint32_t>(frames.size(), 1));
-    const std::vector<ConfidenceInterval> intervals =
-        intervalsFor(options, frames.size(), figuresOf);
-    const std::vector<std::string> names = {"precision", "recall", "fscore"};
-    for (std::size_t index = 0; index < names.size(); ++index) {
-      PublishedEntry entry = entryFor(names[index], metrics.settings()[setting]);
-      entry.score_threshold = score_threshold;
-      entry.value = values[index];
-      if (!intervals.empty()) {
-        entry.confidence_interval = intervals[index];
-      }
+    for (PublishedEntry& entry : classificationEntries(prototype, frames, words, options)) {
       entries->push_back(std::move(entry));
     }
   }

@@ -3,29 +3,12 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "evolin_ros/geometry/pose.h"
+#include "frame_files.h"
 
 namespace evolin::cli {
-
-struct PoseFiles {
-  std::string lines;
-  std::string associations;
-  std::string depths;
-  std::string poses;
-  std::string depth_associations;
-  int pose_offset = 0;
-};
-
-struct PoseFrame {
-  std::string stem;
-  std::filesystem::path lines;
-  std::filesystem::path depth;  ///< empty: none belongs to this image
-  std::optional<Pose> pose;     ///< camera to world
-};
 
 struct PosePairFiles {
   std::size_t first = 0;  ///< place among the frames
@@ -34,18 +17,17 @@ struct PosePairFiles {
 };
 
 struct PoseInputs {
-  std::vector<PoseFrame> frames;  ///< in order of the line files' names
-  std::size_t step = 0;           ///< number of line files less number of association files
+  FrameList list;
+  std::size_t step = 0;  ///< number of frames less number of association files
   std::vector<PosePairFiles> pairs;
   std::size_t without_pose = 0;  ///< pairs left out because a frame has no pose
   std::size_t without_depth = 0;
 };
 
-/// Association file k in order of names belongs to frames k and k + step. Throws Error or
-/// ParseError when a folder is missing or empty, when there are not fewer association files than
-/// line files, when an association file is named FIRST_SECOND after other frames than its place
-/// says, for a malformed list or an index beyond the files, when a frame has no pose without an
-/// offset, and when no pair is left.
-PoseInputs listPoseInputs(const PoseFiles& files);
+/// Association file k in order of names belongs to frames k and k + step of listFrames(). Throws
+/// Error or ParseError as that does, and when there are no association files or not fewer of them
+/// than frames, when one is named FIRST_SECOND after other frames than its place says, and when no
+/// pair is left.
+PoseInputs listPoseInputs(const FrameFolders& folders, const std::string& associations);
 
 }  // namespace evolin::cli

@@ -26,6 +26,9 @@ struct PublishedEntry {
   std::optional<double> threshold;
   std::optional<ConfidenceInterval> confidence_interval;  ///< ours, beyond the published form
   std::variant<double, Curve> value = 0.0;
+  /// Why tables show no value, in words without a comma; empty: they do. The published form has the
+  /// value anyway.
+  std::string undefined;
 };
 
 /// A JSON list as Python's json module writes and reads it: Infinity, -Infinity and NaN as

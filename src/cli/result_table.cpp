@@ -38,6 +38,9 @@ std::string fourDecimals(double value) {
 }
 
 std::string cell(const PublishedEntry& entry) {
+  if (!entry.undefined.empty()) {
+    return "-";
+  }
   std::string text = fourDecimals(std::get<double>(entry.value));
   if (entry.confidence_interval) {
     text += " [" + fourDecimals(entry.confidence_interval->low) + ", " +
@@ -62,6 +65,35 @@ std::string align(const std::vector<Row>& rows, std::size_t left_columns) {
       line += column < left_columns ? row[column] + padding : padding + row[column];
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+  return text;
+}
+
+/// "no value for precision, fscore: no lines were detected", a line a reason.
+std::string reasonsBelow(const std::vector<PublishedEntry>& entries) {
+  std::vector<std::pair<std::string, Row>> reasons;  // each with the names of its figures
+  for (const PublishedEntry& entry : entries) {
+    if (entry.undefined.empty() || !std::holds_alternative<double>(entry.value)) {
+      continue;
+    }
+    auto reason = std::find_if(reasons.begin(), reasons.end(), [&entry](const auto& known) {
+      return known.first == entry.undefined;
+    });
+    if (reason == reasons.end()) {
+      reason = reasons.insert(reasons.end(), {entry.undefined, {}});
+    }
+    Row& names = reason->second;
+    if (std::find(names.begin(), names.end(), entry.name) == names.end()) {
+      names.push_back(entry.name);
+    }
+  }
+  std::string text;
+  for (const auto& [reason, names] : reasons) {
+    text += "no value for ";
+    for (std::size_t index = 0; index < names.size(); ++index) {
+      text += (index > 0 ? ", " : "") + names[index];
+    }
+    text += ": " + reason + '\n';
   }
   return text;
 }
@@ -112,7 +144,7 @@ std::string toTable(const std::vector<PublishedEntry>& entries) {
     line.insert(line.end(), values.begin(), values.end());
     table.push_back(line);
   }
-  return align(table, !used.empty() && used.front() == 0 ? 1 : 0);
+  return align(table, !used.empty() && used.front() == 0 ? 1 : 0) + reasonsBelow(entries);
 }
 
 std::string toCsv(const std::vector<PublishedEntry>& entries) {
@@ -120,7 +152,7 @@ std::string toCsv(const std::vector<PublishedEntry>& entries) {
   for (const std::string& head : keyHeads()) {
     text += "," + head;
   }
-  text += ",value,low,high\n";
+  text += ",value,low,high,reason\n";
   for (const PublishedEntry& entry : entries) {
     const double* value = std::get_if<double>(&entry.value);
     if (value == nullptr) {
@@ -130,14 +162,15 @@ std::string toCsv(const std::vector<PublishedEntry>& entries) {
     for (const std::string& key : keyOf(entry)) {
       text += "," + key;
     }
-    text += "," + formatDouble(*value) + ",";
-    if (entry.confidence_interval) {
+    const bool defined = entry.undefined.empty();
+    text += "," + (defined ? formatDouble(*value) : "") + ",";
+    if (defined && entry.confidence_interval) {
       text += formatDouble(entry.confidence_interval->low) + "," +
               formatDouble(entry.confidence_interval->high);
     } else {
       text += ",";
     }
-    text += '\n';
+    text += "," + entry.undefined + '\n';
   }
   return text;
 }

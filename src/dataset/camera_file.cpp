@@ -23,7 +23,7 @@ constexpr int kLargestImageSide = 1 << 20;
 // One map of a camera file whose errors carry the line.
 class CameraMap {
  public:
-  CameraMap(std::string file, YAML::Node node) : file_(std::move(file)), node_(std::move(node)) {}
+  CameraMap(std::string file, const YAML::Node& node) : file_(std::move(file)), node_(node) {}
 
   bool has(const std::string& key) const { return node_[key].IsDefined(); }
 

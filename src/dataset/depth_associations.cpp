@@ -9,10 +9,10 @@
 
 namespace evolin {
 
-std::vector<std::optional<std::size_t>> readDepthAssociations(const std::filesystem::path& file,
-                                                              std::size_t images,
-                                                              std::size_t depths) {
-  std::vector<std::optional<std::size_t>> rows(images);
+std::vector<DepthAssociation> readDepthAssociationRows(const std::filesystem::path& file,
+                                                       std::size_t images, std::size_t depths) {
+  std::vector<DepthAssociation> rows;
+  std::vector<bool> seen(images, false);
   int number = 0;
   for (const std::string& line : readLines(file)) {
     ++number;
@@ -40,14 +40,25 @@ std::vector<std::optional<std::size_t>> readDepthAssociations(const std::filesys
     };
     const std::size_t image = index(0, "image", images);
     const std::size_t depth = index(1, "depth", depths);
-    if (rows[image]) {
+    if (seen[image]) {
       throw ParseError(
           file.string(), number,
           "image index " + quote(words[0]) + " occurs twice, expected one depth an image");
     }
-    rows[image] = depth;
+    seen[image] = true;
+    rows.push_back({image, depth, number});
   }
   return rows;
+}
+
+std::vector<std::optional<std::size_t>> readDepthAssociations(const std::filesystem::path& file,
+                                                              std::size_t images,
+                                                              std::size_t depths) {
+  std::vector<std::optional<std::size_t>> by_image(images);
+  for (const DepthAssociation& row : readDepthAssociationRows(file, images, depths)) {
+    by_image[row.image] = row.depth;
+  }
+  return by_image;
 }
 
 }  // namespace evolin

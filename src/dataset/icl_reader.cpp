@@ -137,6 +137,7 @@ SequencePlan planIclSequence(const fs::path& folder, const SequenceOptions& opti
     const std::vector<NumberedPose> poses = readNumberedPoses(file);
     if (options.pose_offset) {
       std::vector<Pose> by_row;
+      by_row.reserve(poses.size());
       for (const NumberedPose& pose : poses) {
         by_row.push_back(pose.pose);
       }

@@ -112,7 +112,7 @@ void chainLineIds(const std::vector<std::filesystem::path>& folders,
       const auto fail = [&](std::size_t row, const std::string& message) {
         throw ParseError(file.string(), static_cast<int>(row) + 1, message);
       };
-      const auto requireRow = [&](std::size_t at, std::size_t frame, std::int64_t row) {
+      const auto require_row = [&](std::size_t at, std::size_t frame, std::int64_t row) {
         const std::size_t count = (*frames)[frame].size();
         if (row < 0 || static_cast<std::uint64_t>(row) >= count) {
           fail(at, "index " + std::to_string(row) + " is beyond the " + std::to_string(count) +
@@ -122,8 +122,8 @@ void chainLineIds(const std::vector<std::filesystem::path>& folders,
       };
       const IndexPairs rows = readIndexPairsCsv(file);
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::size_t first = requireRow(i, pair.first, rows[i].first);
-        const std::size_t second = requireRow(i, pair.second, rows[i].second);
+        const std::size_t first = require_row(i, pair.first, rows[i].first);
+        const std::size_t second = require_row(i, pair.second, rows[i].second);
         const auto conflict =
             chains.join(chains.node(pair.first, first), chains.node(pair.second, second));
         if (conflict) {

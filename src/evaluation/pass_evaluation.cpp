@@ -64,7 +64,11 @@ void EvaluationUpdate::append(EvaluationUpdate other) {
 PassEvaluation::PassEvaluation(PassOptions options)
     : options_(std::move(options)),
       evaluator_(options_.evaluation),
-      motion_(motionOptionsOf(options_)) {}
+      motion_(motionOptionsOf(options_)) {
+  if (options_.matches_from_ids) {
+    id_matcher_.emplace(options_.frame_step);
+  }
+}
 
 PassEvaluation::Entry& PassEvaluation::entryAt(Stamp stamp) {
   const auto [place, is_new] = entries_.try_emplace(stamp);
@@ -97,7 +101,7 @@ std::uint32_t PassEvaluation::placeOfLines(Stamp stamp) {
   return place;
 }
 
-EvaluationUpdate PassEvaluation::addLines(LineSet lines) {
+EvaluationUpdate PassEvaluation::takeLines(LineSet lines) {
   EvaluationUpdate update;
   const Stamp stamp = lines.stamp;
   Entry& entry = entryAt(stamp);

@@ -9,7 +9,7 @@
 
 namespace evolin {
 
-EvaluationUpdate PassEvaluation::addMatches(MatchSet matches) {
+EvaluationUpdate PassEvaluation::takeMatches(MatchSet matches) {
   EvaluationUpdate update;
   matches.processing_time = measuredTime(matches.processing_time);
   if (matches.processing_time > 0) {

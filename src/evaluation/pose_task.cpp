@@ -13,11 +13,6 @@ std::optional<PoseErrors> errorsOf(const RelativePose& estimate, const Pose& tru
   return estimate.found() ? poseErrors(truth, estimate.first_to_second, protocol) : std::nullopt;
 }
 
-Pose inverse(const Pose& pose) {
-  const Eigen::Quaterniond rotation = pose.rotation.conjugate();
-  return {rotation, -(rotation * pose.translation)};
-}
-
 }  // namespace
 
 PoseMethod::PoseMethod(const PoseMethodOptions& options) : options_(options) {

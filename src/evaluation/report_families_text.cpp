@@ -27,11 +27,6 @@ void appendPose(const Pose& pose, std::string* text) {
   }
 }
 
-Pose inverse(const Pose& pose) {
-  const Eigen::Quaterniond rotation = pose.rotation.conjugate();
-  return {rotation, -(rotation * pose.translation)};
-}
-
 }  // namespace
 
 std::string fixedText(double value, int digits) {

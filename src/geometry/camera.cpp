@@ -17,9 +17,9 @@ struct DistortionModel {
 };
 
 const std::vector<DistortionModel>& distortionModels() {
-  static const std::vector<DistortionModel> models = {
+  static const std::vector<DistortionModel> kModels = {
       {"plumb_bob", {4, 5}}, {"rational_polynomial", {8, 12, 14}}, {"equidistant", {4}}};
-  return models;
+  return kModels;
 }
 
 void requireFinite(const std::string& source, const std::string& key, double value) {

@@ -1,26 +1,21 @@
 // Numbered things by whole distances, for searches whose distances never fall (Dial 1969).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace evolin {
 
+/// Grows with the distances that occur: searches that stay near touch little memory.
 class BucketQueue {
  public:
-  /// For distances below `end`.
-  explicit BucketQueue(std::int32_t end) { reset(end); }
-
-  /// Empties the queue, for distances below `end` from now on.
-  void reset(std::int32_t end) {
-    heads_.assign(static_cast<std::size_t>(end), kNone);
-    occupied_.assign(static_cast<std::size_t>(end) / kBits + 1, 0);
-    entries_.clear();
-  }
-
   void push(std::int32_t distance, std::uint32_t value) {
     const auto bucket = static_cast<std::size_t>(distance);
+    if (bucket >= heads_.size()) {
+      grow(bucket);
+    }
     entries_.push_back({value, heads_[bucket], distance});
     heads_[bucket] = static_cast<std::uint32_t>(entries_.size() - 1);
     occupied_[bucket / kBits] |= std::uint64_t{1} << (bucket % kBits);
@@ -28,15 +23,16 @@ class BucketQueue {
 
   /// Moves `distance` up to the next bucket that holds a value; false when that is not below `end`.
   bool advance(std::int32_t end, std::int32_t* distance) const {
-    if (*distance >= end) {
+    const auto bucket = static_cast<std::size_t>(*distance);
+    const std::size_t words =
+        std::min(occupied_.size(), (static_cast<std::size_t>(end) + kBits - 1) / kBits);
+    std::size_t word = bucket / kBits;
+    if (word >= words) {
       return false;
     }
-    const auto bucket = static_cast<std::size_t>(*distance);
-    const std::size_t last_word = static_cast<std::size_t>(end - 1) / kBits;
-    std::size_t word = bucket / kBits;
     std::uint64_t bits = occupied_[word] & (~std::uint64_t{0} << (bucket % kBits));
     while (bits == 0) {
-      if (++word > last_word) {
+      if (++word == words) {
         return false;
       }
       bits = occupied_[word];
@@ -74,6 +70,12 @@ class BucketQueue {
     std::uint32_t next;
     std::int32_t distance;
   };
+
+  void grow(std::size_t bucket) {
+    const std::size_t words = std::max(bucket / kBits + 1, 2 * occupied_.size());
+    occupied_.resize(words, 0);
+    heads_.resize(words * kBits, kNone);
+  }
 
   std::vector<std::uint32_t> heads_;     ///< by distance: last entry pushed
   std::vector<std::uint64_t> occupied_;  ///< one bit a bucket

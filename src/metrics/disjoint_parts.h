@@ -1,6 +1,7 @@
 // Elements in disjoint parts that grow together (union-find).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -24,15 +25,18 @@ class DisjointParts {
     return element;
   }
 
-  void unite(std::uint32_t a, std::uint32_t b) {
+  /// Returns the element that stands for both from now on. It is quickest when `a` stands for its
+  /// part already.
+  std::uint32_t unite(std::uint32_t a, std::uint32_t b) {
+    if (parents_[b] == a) {
+      return a;
+    }
     const std::uint32_t root_a = find(a);
     const std::uint32_t root_b = find(b);
     // The lower number stays: neighbours in a scan then find their root in one step.
-    if (root_a < root_b) {
-      parents_[root_b] = root_a;
-    } else {
-      parents_[root_a] = root_b;
-    }
+    const std::uint32_t low = std::min(root_a, root_b);
+    parents_[std::max(root_a, root_b)] = low;
+    return low;
   }
 
  private:

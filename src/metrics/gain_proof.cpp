@@ -44,7 +44,7 @@ constexpr double kMargin = 0.01;          ///< far above all rounding of doubles
 constexpr int kExchangeRounds = 8;
 constexpr std::size_t kExchanges = 8;   ///< a round
 constexpr double kLeastSaving = 0.125;  ///< in free costs, to try an exchange
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::uint32_t kNone = PriceSearch::kNone;
 constexpr std::size_t kBiddersPerCheck = 64;  ///< of the deadline
 constexpr std::size_t kUsualArcs = 32;        ///< memory to begin with, a bidder
 
@@ -59,14 +59,15 @@ class GainProof {
         matching_(matching),
         free_cost_(free_cost),
         sites_(ground_truth.size()),
+        bidder_cells_(matching.predicted),
         parts_(ground_truth.size()) {
     listArcs(deadline);
   }
 
   std::vector<std::uint32_t> run(const Deadline& deadline) {
     setAsideLightParts();
-    PriceSearch search(&lists_, sites_, grid_.reach(),
-                       std::clamp(free_cost_, 1.0, kMostExpensive) * kPriceLimit, deadline);
+    PriceSearch search(&lists_, sites_, std::clamp(free_cost_, 1.0, kMostExpensive) * kPriceLimit,
+                       deadline);
     if (!bidders_.empty()) {
       search.run(bidders_);
       setAsideProvenParts(search);
@@ -85,8 +86,10 @@ class GainProof {
   void listArcs(const Deadline& deadline) {
     const auto reach = static_cast<std::size_t>(grid_.reach());
     lengths_.resize(reach * reach + 1);
+    units_.resize(lengths_.size());
     for (std::size_t squared = 0; squared < lengths_.size(); ++squared) {
       lengths_[squared] = std::sqrt(static_cast<double>(squared));
+      units_[squared] = PriceSearch::units(lengths_[squared]);
     }
     const std::size_t bidders = matching_.predicted.size();
     lists_.arcs.reserve(bidders * kUsualArcs);
@@ -95,21 +98,26 @@ class GainProof {
       if (bidder % kBiddersPerCheck == 0) {
         deadline.check();
       }
-      const std::uint32_t root = parts_.find(matching_.partners[bidder]);
-      ground_truth_.set().forEachNear(
-          grid_, matching_.predicted[bidder], [&](Cell cell, std::uint32_t squared) {
-            const std::uint32_t site = ground_truth_.index(cell);
-            lists_.arcs.push_back({site, 0, static_cast<std::uint16_t>(squared)});
-            parts_.unite(root, site);
-            return true;
-          });
+      std::uint32_t root = parts_.find(matching_.partners[bidder]);
+      ground_truth_.set().forEachNear(grid_, matching_.predicted[bidder],
+                                      [&](Cell cell, std::uint32_t squared) {
+                                        const std::uint32_t site = ground_truth_.index(cell);
+                                        lists_.arcs.emplace_back(site, units_[squared]);
+                                        root = parts_.unite(root, site);
+                                        return true;
+                                      });
       ends[bidder] = lists_.arcs.size();
     }
-    Arc* begin = lists_.arcs.data();
+    const Arc* begin = lists_.arcs.data();
     for (const std::size_t end : ends) {
       lists_.ranges.push_back({begin, lists_.arcs.data() + end});
       begin = lists_.arcs.data() + end;
     }
+  }
+
+  /// Exact, in pixels.
+  double length(std::uint32_t bidder, std::uint32_t site) const {
+    return lengths_[grid_.squaredDistance(bidder_cells_[bidder], ground_truth_.cells()[site])];
   }
 
   /// A predicted pixel without partner that might take the place of a bidder.
@@ -171,9 +179,9 @@ class GainProof {
     };
     std::vector<Dear> dear;
     for (const std::uint32_t bidder : bidders_) {
-      const Arc* chosen = search->chosen(bidder);
-      dear.push_back({chosen == nullptr ? std::numeric_limits<double>::infinity()
-                                        : lengths_[chosen->squared] + search->price(chosen->site),
+      const std::uint32_t chosen = search->chosen(bidder);
+      dear.push_back({chosen == kNone ? std::numeric_limits<double>::infinity()
+                                      : length(bidder, chosen) + search->price(chosen),
                       bidder});
     }
     std::sort(dear.begin(), dear.end(),
@@ -189,8 +197,11 @@ class GainProof {
       }
       const Cell cell = spares.back().cell;
       spares.pop_back();
-      if (search->replace(each.bidder, arcsOf(cell)) && ++count == kExchanges) {
-        break;
+      if (search->replace(each.bidder, arcsOf(cell))) {
+        bidder_cells_[each.bidder] = cell;
+        if (++count == kExchanges) {
+          break;
+        }
       }
     }
     search->lowerPrices();
@@ -200,7 +211,7 @@ class GainProof {
   std::vector<Arc> arcsOf(Cell predicted) const {
     std::vector<Arc> arcs;
     ground_truth_.set().forEachNear(grid_, predicted, [&](Cell cell, std::uint32_t squared) {
-      arcs.push_back({ground_truth_.index(cell), 0, static_cast<std::uint16_t>(squared)});
+      arcs.emplace_back(ground_truth_.index(cell), units_[squared]);
       return true;
     });
     return arcs;
@@ -211,9 +222,7 @@ class GainProof {
     std::vector<double> weights(sites_, 0);
     for (std::uint32_t bidder = 0; bidder < matching_.predicted.size(); ++bidder) {
       const std::uint32_t partner = matching_.partners[bidder];
-      const Arc* arc = std::find_if(lists_.begin(bidder), lists_.end(bidder),
-                                    [partner](const Arc& each) { return each.site == partner; });
-      weights[parts_.find(partner)] += lengths_[arc->squared];
+      weights[parts_.find(partner)] += length(bidder, partner);
     }
     for (std::uint32_t bidder = 0; bidder < matching_.predicted.size(); ++bidder) {
       if (weights[parts_.find(matching_.partners[bidder])] >= free_cost_ - kMargin) {
@@ -230,24 +239,23 @@ class GainProof {
       double excess = 0;
     };
     std::vector<Extremes> extremes(sites_);
-    const auto cost = [this, &search](const Arc& arc) {
-      return lengths_[arc.squared] + search.price(arc.site);
-    };
     for (const std::uint32_t bidder : bidders_) {
       const std::uint32_t part = parts_.find(matching_.partners[bidder]);
       Extremes& found = extremes[part];
-      const Arc* chosen = search.chosen(bidder);
-      if (chosen == nullptr) {
+      const std::uint32_t chosen = search.chosen(bidder);
+      if (chosen == kNone) {
         found.excess = std::numeric_limits<double>::infinity();
         continue;
       }
-      double least = std::numeric_limits<double>::infinity();
-      for (const Arc* arc = lists_.begin(bidder); arc != lists_.end(bidder); ++arc) {
-        least = std::min(least, cost(*arc));
-      }
-      found.highest = std::max(found.highest, cost(*chosen));
-      found.lowest = std::min(found.lowest, search.price(chosen->site));
-      found.excess += cost(*chosen) - least;
+      const double price = search.price(chosen);
+      const double cost = length(bidder, chosen) + price;
+      double least = cost;
+      search.forEachCheaper(bidder, [&](std::uint32_t site) {
+        least = std::min(least, length(bidder, site) + search.price(site));
+      });
+      found.highest = std::max(found.highest, cost);
+      found.lowest = std::min(found.lowest, price);
+      found.excess += cost - least;
     }
     std::vector<std::uint32_t> remaining;
     for (const std::uint32_t bidder : bidders_) {
@@ -268,7 +276,9 @@ class GainProof {
   const NestedMatching& matching_;
   double free_cost_;
   std::size_t sites_;
-  std::vector<double> lengths_;  ///< by squared length
+  std::vector<double> lengths_;       ///< by squared length
+  std::vector<std::uint32_t> units_;  ///< by squared length
+  std::vector<Cell> bidder_cells_;
   ArcLists lists_;
   DisjointParts parts_;  ///< of sites
   std::vector<std::uint32_t> bidders_;

@@ -1,12 +1,16 @@
 // Nearest pairs first, then augmenting paths by breadth-first search over bits.
 //
 // A set of predicted pixels that can be matched all at once may be grown pixel by pixel: a pixel
-// either joins by an augmenting path, or never will, as such sets form a matroid. A search that
-// fails has met only matched ground-truth pixels, from which no free one can be reached, and later
-// augmenting paths cannot lead there either: these pixels are dead and leave all later searches. So
+// either joins by an augmenting path, or never will, as such sets form a matroid. The ground-truth
+// pixels that a pixel which never will join can reach, over pairs in turn, are matched all, and
+// later augmenting paths cannot lead there either: they are dead and leave all later searches. So
 // the searches of all levels together visit little more than the searches of the last level would.
+//
+// Which pixels of a level join is free where it has too many. Each free ground-truth pixel takes
+// the one fewest pairs away: long shifts make the matching dear, and its proof (gain_proof) hard.
 #include "nested_matching.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace evolin {
@@ -14,125 +18,148 @@ namespace evolin {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
+/// After so many places of the disc it is cheaper to ask who has nothing free left in it.
+constexpr std::size_t kOffsetsPerCheck = 16;
 
 class NestedMatcher {
  public:
-  NestedMatcher(const PixelGrid& grid, const IndexedCells& ground_truth, const Deadline& deadline)
+  NestedMatcher(const PixelGrid& grid, const IndexedCells& ground_truth,
+                const std::vector<std::vector<Cell>>& added, const Deadline& deadline)
       : grid_(grid),
         ground_truth_(ground_truth),
+        predicted_(grid, added),
         deadline_(deadline),
         free_(ground_truth.set()),
         live_(ground_truth.set()),
         owners_(ground_truth.size(), kNone),
-        visitors_(ground_truth.size(), kNone) {}
+        partners_(predicted_.size(), kNone),
+        visitors_(ground_truth.size(), kNone),
+        roots_(predicted_.size(), kNone) {}
 
   void addLevel(const std::vector<Cell>& added) {
-    std::vector<Cell> waiting;
-    std::vector<Cell> late;
-    for (const Cell cell : added) {
-      (free_.anyNear(grid_, cell) ? waiting : late).push_back(cell);
-    }
+    std::vector<Cell> waiting = added;
     matchNearestFirst(&waiting);
-    for (const Cell cell : waiting) {
-      augment(cell);
-    }
-    for (const Cell cell : late) {
-      augment(cell);
+    while (augmentMany(&waiting)) {
+      deadline_.check();
     }
     result_.sizes.push_back(result_.predicted.size());
   }
 
-  NestedMatching take() { return std::move(result_); }
+  NestedMatching take() {
+    for (const Cell cell : result_.predicted) {
+      result_.partners.push_back(partners_[predicted_.index(cell)]);
+    }
+    return std::move(result_);
+  }
 
  private:
   /// Takes away from `waiting` what finds a free partner within reach, shortest pairs first.
   void matchNearestFirst(std::vector<Cell>* waiting) {
-    for (const PixelGrid::DiscCell& place : grid_.nearestFirst()) {
+    std::vector<Cell> beside;  // nothing free within reach
+    std::vector<Cell> left = *waiting;
+    const std::vector<PixelGrid::Offset>& offsets = grid_.nearestFirst();
+    for (std::size_t place = 0; place < offsets.size() && !left.empty(); ++place) {
       deadline_.check();
+      if (place % kOffsetsPerCheck == 0) {
+        const auto gone = std::stable_partition(
+            left.begin(), left.end(), [this](Cell cell) { return free_.anyNear(grid_, cell); });
+        beside.insert(beside.end(), gone, left.end());
+        left.erase(gone, left.end());
+      }
       std::size_t kept = 0;
-      for (const Cell cell : *waiting) {
-        const Cell partner = cell + place.offset;
+      for (const Cell cell : left) {
+        const Cell partner = grid_.moved(cell, offsets[place]);
         if (free_.contains(partner)) {
-          join(cell, partner);
+          free_.erase(partner);
+          join(cell);
+          pair(predicted_.index(cell), ground_truth_.index(partner));
         } else {
-          (*waiting)[kept++] = cell;
+          left[kept++] = cell;
         }
       }
-      waiting->resize(kept);
-      if (kept == 0) {
-        return;
-      }
+      left.resize(kept);
     }
+    beside.insert(beside.end(), left.begin(), left.end());
+    waiting->swap(beside);
   }
 
-  void join(Cell predicted, Cell partner) {
-    free_.erase(partner);
-    const std::uint32_t index = ground_truth_.index(partner);
-    owners_[index] = static_cast<std::uint32_t>(result_.predicted.size());
-    result_.predicted.push_back(predicted);
-    result_.partners.push_back(index);
+  void join(Cell cell) { result_.predicted.push_back(cell); }
+
+  void pair(std::uint32_t number, std::uint32_t site) {
+    owners_[site] = number;
+    partners_[number] = site;
   }
 
-  /// Matches `start` by a shortest augmenting path if there is one.
-  void augment(Cell start) {
-    deadline_.check();
-    const auto number = static_cast<std::uint32_t>(result_.predicted.size());
-    queue_.clear();
-    queue_.push_back(number);
-    result_.predicted.push_back(start);
-    visited_.clear();
-    Cell end = 0;
-    bool found = false;
-    for (std::size_t next = 0; next < queue_.size() && !found; ++next) {
-      const std::uint32_t from = queue_[next];
-      live_.forEachNear(grid_, result_.predicted[from], [&](Cell cell, std::uint32_t) {
-        live_.erase(cell);
-        visited_.push_back(cell);
-        const std::uint32_t index = ground_truth_.index(cell);
-        visitors_[index] = from;
-        if (owners_[index] == kNone) {
-          end = cell;
-          found = true;
-          return false;
-        }
-        queue_.push_back(owners_[index]);
+  /// Grows trees of pairs in turn from all waiting pixels at once. A tree that comes to a free
+  /// ground-truth pixel is an augmenting path and grows no more. False when none does: what was
+  /// reached is dead then.
+  bool augmentMany(std::vector<Cell>* waiting) {
+    reached_.clear();
+    bool any = false;
+    std::uint32_t from = kNone;
+    std::uint32_t root = kNone;
+    const auto visit = [&](Cell cell, std::uint32_t) {
+      live_.erase(cell);
+      reached_.push_back(cell);
+      visitors_[ground_truth_.index(cell)] = from;
+      if (!free_.contains(cell)) {
         return true;
-      });
+      }
+      free_.erase(cell);
+      join(predicted_.cells()[root]);
+      flipPath(ground_truth_.index(cell), root);
+      any = true;
+      return false;
+    };
+    for (const Cell cell : *waiting) {
+      from = root = predicted_.index(cell);
+      roots_[root] = root;
+      live_.forEachNear(grid_, cell, visit);
     }
-    if (!found) {
-      result_.predicted.pop_back();  // what was visited stays erased: it is dead
-      return;
+    for (std::size_t next = 0; next < reached_.size(); ++next) {
+      const std::uint32_t site = ground_truth_.index(reached_[next]);
+      root = roots_[visitors_[site]];
+      if (partners_[root] == kNone) {
+        from = owners_[site];
+        roots_[from] = root;
+        live_.forEachNear(grid_, predicted_.cells()[from], visit);
+      }
     }
-    for (const Cell cell : visited_) {
-      live_.insert(cell);
+    if (any) {
+      live_.insertAll(reached_);
+      waiting->erase(std::remove_if(waiting->begin(), waiting->end(),
+                                    [this](Cell cell) {
+                                      return partners_[predicted_.index(cell)] != kNone ||
+                                             !live_.anyNear(grid_, cell);
+                                    }),
+                     waiting->end());
     }
-    free_.erase(end);
-    flipPath(ground_truth_.index(end), number);
+    return any;
   }
 
-  /// Gives every ground-truth pixel on the way back from `index` to the one that reached it, who
+  /// Gives every ground-truth pixel on the way back from `site` to the one that reached it, who
   /// in turn leaves the pixel through which it was reached itself.
-  void flipPath(std::uint32_t index, std::uint32_t start) {
-    while (true) {
-      const std::uint32_t owner = visitors_[index];
-      owners_[index] = owner;
-      if (owner == start) {
-        result_.partners.push_back(index);
-        return;
-      }
-      std::swap(result_.partners[owner], index);
-    }
+  void flipPath(std::uint32_t site, std::uint32_t root) {
+    std::uint32_t owner = kNone;
+    do {
+      owner = visitors_[site];
+      const std::uint32_t left = partners_[owner];
+      pair(owner, site);
+      site = left;
+    } while (owner != root);
   }
 
   const PixelGrid& grid_;
   const IndexedCells& ground_truth_;
+  const IndexedCells predicted_;  ///< of all levels
   const Deadline& deadline_;
   CellSet free_;                         ///< unmatched ground-truth cells
-  CellSet live_;                         ///< ground-truth cells that searches may visit
-  std::vector<std::uint32_t> owners_;    ///< of ground-truth pixels: number in result_.predicted
+  CellSet live_;                         ///< ground-truth cells that are not dead
+  std::vector<std::uint32_t> owners_;    ///< of ground-truth pixels: number of predicted pixel
+  std::vector<std::uint32_t> partners_;  ///< of predicted pixels: number of ground-truth pixel
   std::vector<std::uint32_t> visitors_;  ///< of ground-truth pixels: who reached them last
-  std::vector<std::uint32_t> queue_;
-  std::vector<Cell> visited_;
+  std::vector<std::uint32_t> roots_;  ///< of predicted pixels: of the tree that they were last in
+  std::vector<Cell> reached_;
   NestedMatching result_;
 };
 
@@ -140,7 +167,7 @@ class NestedMatcher {
 
 NestedMatching matchNested(const PixelGrid& grid, const IndexedCells& ground_truth,
                            const std::vector<std::vector<Cell>>& added, const Deadline& deadline) {
-  NestedMatcher matcher(grid, ground_truth, deadline);
+  NestedMatcher matcher(grid, ground_truth, added, deadline);
   for (const std::vector<Cell>& level : added) {
     matcher.addLevel(level);
   }

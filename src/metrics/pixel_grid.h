@@ -10,42 +10,65 @@
 
 namespace evolin {
 
-/// A pixel's number. Rows are padded to whole words of bits and to `reach` cells on every side, so
-/// that a disc around a pixel never leaves the grid.
+/// A pixel's number. The image lies in columns of 64 pixels, one word of bits a row, so that the
+/// rows of a disc follow each other in memory and its pixels have numbers close together. There is
+/// a margin of the reach on every side: a disc never leaves the grid.
 using Cell = std::uint32_t;
 
 /// The geometry that all sets of one image share.
 class PixelGrid {
  public:
-  /// A row of the disc: `length` cells from `first` cells after the centre on (wraps for rows
-  /// above).
-  struct DiscRow {
-    Cell first;
-    Cell length;
-    std::uint32_t dy_squared;
-  };
-  /// A cell of the disc, relative to its centre (wraps), and its squared distance.
-  struct DiscCell {
-    Cell offset;
-    std::uint32_t squared;
+  static constexpr Cell kBits = 64;  ///< of a word
+
+  /// A cell of the disc, relative to its centre.
+  struct Offset {
+    std::int32_t dx;
+    std::int32_t dy;
   };
 
   PixelGrid(ImageSize size, int reach);
 
-  std::size_t cells() const { return cells_; }
+  std::size_t words() const { return words_; }
   int reach() const { return reach_; }
   Cell cell(const Pixel& pixel) const {
-    return static_cast<Cell>(pixel.y + reach_) * stride_ + static_cast<Cell>(pixel.x + reach_);
+    return cellAt(static_cast<Cell>(pixel.x + reach_), static_cast<Cell>(pixel.y + reach_));
   }
-  const std::vector<DiscRow>& discRows() const { return rows_; }
-  const std::vector<DiscCell>& nearestFirst() const { return nearest_first_; }
+  /// `offset` is one of the disc.
+  Cell moved(Cell cell, Offset offset) const {
+    return cellAt(x(cell) + static_cast<Cell>(offset.dx), y(cell) + static_cast<Cell>(offset.dy));
+  }
+  std::uint32_t squaredDistance(Cell a, Cell b) const {
+    const auto dx = static_cast<std::int32_t>(x(a) - x(b));
+    const auto dy = static_cast<std::int32_t>(y(a) - y(b));
+    return static_cast<std::uint32_t>(dx * dx + dy * dy);
+  }
+  /// The whole disc, nearest cells first.
+  const std::vector<Offset>& nearestFirst() const { return nearest_first_; }
 
  private:
+  friend class CellSet;
+
+  // With the margin; a column has 1 << column_bits_ words.
+  Cell cellAt(Cell x, Cell y) const {
+    return ((((x / kBits) << column_bits_) + y) * kBits) + x % kBits;
+  }
+  Cell x(Cell cell) const { return (cell / kBits >> column_bits_) * kBits + cell % kBits; }
+  Cell y(Cell cell) const { return cell / kBits & ((Cell{1} << column_bits_) - 1); }
+
+  /// Of the square around a disc.
+  Cell corner(Cell centre) const {
+    return cellAt(x(centre) - static_cast<Cell>(reach_), y(centre) - static_cast<Cell>(reach_));
+  }
+
   int reach_;
-  Cell stride_;
-  std::size_t cells_;
-  std::vector<DiscRow> rows_;
-  std::vector<DiscCell> nearest_first_;
+  Cell side_;  ///< of the square around a disc
+  unsigned column_bits_ = 0;
+  std::size_t words_ = 0;
+  /// Bits of the disc in a square around it, column by column of 64 from the left, each from its
+  /// upper row down.
+  std::vector<std::uint64_t> masks_;
+  std::vector<std::uint32_t> squared_;  ///< distance from the centre of each bit of masks_
+  std::vector<Offset> nearest_first_;
 };
 
 /// The number of ones. Without the processor's instruction, which a portable build may not use, the
@@ -63,19 +86,32 @@ inline std::uint32_t countBits(std::uint64_t word) {
 /// A set of cells, one bit each.
 class CellSet {
  public:
-  explicit CellSet(const PixelGrid& grid) : words_(grid.cells() / kBits + 1) {}
+  explicit CellSet(const PixelGrid& grid) : words_(grid.words()) {}
 
   void insert(Cell cell) { words_[cell / kBits] |= bit(cell); }
+  void insertAll(const std::vector<Cell>& cells) {
+    for (const Cell cell : cells) {
+      insert(cell);
+    }
+  }
   void erase(Cell cell) { words_[cell / kBits] &= ~bit(cell); }
   bool contains(Cell cell) const { return (words_[cell / kBits] & bit(cell)) != 0; }
 
   /// Whether any cell within the reach of `centre` is in the set.
   bool anyNear(const PixelGrid& grid, Cell centre) const {
+    const Cell side = grid.side_;
+    const std::uint64_t* mask = grid.masks_.data();
+    Cell begin = grid.corner(centre);
+    const Cell shift = begin % kBits;
     std::uint64_t found = 0;
-    for (const PixelGrid::DiscRow& row : grid.discRows()) {
-      for (Cell done = 0; done < row.length; done += kBits) {
-        found |= bits(centre + row.first + done, row.length - done);
+    for (Cell column = 0; column < side; column += kBits) {
+      const std::uint64_t* const left = words_.data() + begin / kBits;
+      const std::uint64_t* const right = left + (std::size_t{1} << grid.column_bits_);
+      for (Cell row = 0; row < side; ++row) {
+        found |= window(left[row], right[row], shift) & mask[row];
       }
+      mask += side;
+      begin += kBits << grid.column_bits_;
     }
     return found != 0;
   }
@@ -84,34 +120,40 @@ class CellSet {
   /// when it returns false. `visit` may erase the cell that it was called with.
   template <typename Visit>
   void forEachNear(const PixelGrid& grid, Cell centre, const Visit& visit) const {
-    for (const PixelGrid::DiscRow& row : grid.discRows()) {
-      const Cell first = centre + row.first;
-      for (Cell done = 0; done < row.length; done += kBits) {
-        std::uint64_t found = bits(first + done, row.length - done);
+    const Cell side = grid.side_;
+    const std::uint64_t* mask = grid.masks_.data();
+    const std::uint32_t* squared = grid.squared_.data();
+    Cell begin = grid.corner(centre);
+    const Cell shift = begin % kBits;
+    for (Cell column = 0; column < side; column += kBits) {
+      const std::uint64_t* const left = words_.data() + begin / kBits;
+      const std::uint64_t* const right = left + (std::size_t{1} << grid.column_bits_);
+      for (Cell row = 0; row < side; ++row) {
+        std::uint64_t found = window(left[row], right[row], shift) & mask[row];
         for (; found != 0; found &= found - 1) {
-          const Cell place = done + static_cast<Cell>(__builtin_ctzll(found));
-          const std::int32_t dx =
-              static_cast<std::int32_t>(place) - static_cast<std::int32_t>(row.length / 2);
-          if (!visit(first + place, row.dy_squared + static_cast<std::uint32_t>(dx * dx))) {
+          const auto bit = static_cast<Cell>(__builtin_ctzll(found));
+          const Cell place = shift + bit;  // from the left word's first cell on
+          const Cell cell = begin - shift + row * kBits +
+                            ((place / kBits * kBits) << grid.column_bits_) + place % kBits;
+          if (!visit(cell, squared[row * kBits + bit])) {
             return;
           }
         }
       }
+      mask += side;
+      squared += side * kBits;
+      begin += kBits << grid.column_bits_;
     }
   }
 
  private:
-  static constexpr Cell kBits = 64;
+  static constexpr Cell kBits = PixelGrid::kBits;
 
   static std::uint64_t bit(Cell cell) { return std::uint64_t{1} << (cell % kBits); }
 
-  /// Bit i: whether cell begin + i is in the set; of the first `length` cells, at most 64.
-  std::uint64_t bits(Cell begin, Cell length) const {
-    const Cell word = begin / kBits;
-    const Cell shift = begin % kBits;
-    // Two shifts, as one by 64 is undefined.
-    const std::uint64_t window = (words_[word] >> shift) | (words_[word + 1] << 1U << (63 - shift));
-    return length >= kBits ? window : window & ((std::uint64_t{1} << length) - 1);
+  /// 64 bits from bit `shift` of `left` on; `right` follows. Two shifts, as one by 64 is undefined.
+  static std::uint64_t window(std::uint64_t left, std::uint64_t right, Cell shift) {
+    return (left >> shift) | (right << 1U << (63 - shift));
   }
 
   friend class IndexedCells;
@@ -119,22 +161,16 @@ class CellSet {
   std::vector<std::uint64_t> words_;
 };
 
-/// A fixed set of cells, numbered from 0 by rows.
+/// A fixed set of cells, numbered from 0 as they follow each other.
 class IndexedCells {
  public:
-  IndexedCells(const PixelGrid& grid, const Pixels& pixels) : set_(grid) {
-    for (const Pixel& pixel : pixels) {
-      set_.insert(grid.cell(pixel));
-    }
-    ranks_.reserve(set_.words_.size());
-    for (const std::uint64_t word : set_.words_) {
-      ranks_.push_back(static_cast<std::uint32_t>(size_));
-      size_ += countBits(word);
-    }
-  }
+  IndexedCells(const PixelGrid& grid, const Pixels& pixels);
+  /// All of several lists together.
+  IndexedCells(const PixelGrid& grid, const std::vector<std::vector<Cell>>& lists);
 
   const CellSet& set() const { return set_; }
-  std::size_t size() const { return size_; }
+  const std::vector<Cell>& cells() const { return cells_; }
+  std::size_t size() const { return cells_.size(); }
 
   /// The number of a cell of the set.
   std::uint32_t index(Cell cell) const {
@@ -144,9 +180,11 @@ class IndexedCells {
   }
 
  private:
+  void number();
+
   CellSet set_;
+  std::vector<Cell> cells_;           ///< by number
   std::vector<std::uint32_t> ranks_;  ///< cells of the set before each word
-  std::size_t size_ = 0;
 };
 
 }  // namespace evolin

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,42 +11,28 @@ namespace evolin {
 namespace {
 
 constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
-constexpr std::uint64_t kNoOffer = std::numeric_limits<std::uint64_t>::max();
 
 /// Pixels by which a bid exceeds the second best offer, auction by auction.
-constexpr std::array<std::int32_t, 2> kAuctionSteps = {16, 4};
+constexpr std::array<std::int32_t, 3> kAuctionSteps = {16, 4, 1};
 constexpr std::size_t kFewBidders = 400;     ///< searches for so few cost less than an auction
 constexpr std::size_t kBidsPerBidder = 100;  ///< after which an auction is broken off
+constexpr std::size_t kBidsPerCheck = 256;   ///< of the deadline
 constexpr int kDisplacements = 30;           ///< in a row, after which a bidder waits
 constexpr int kRounds = 2;                   ///< of bids without step
-constexpr std::size_t kBidsPerCheck = 256;   ///< of the deadline
 
 }  // namespace
 
-PriceSearch::PriceSearch(ArcLists* arcs, std::size_t sites, int reach, double most,
-                         const Deadline& deadline)
+PriceSearch::PriceSearch(ArcLists* arcs, std::size_t sites, double most, const Deadline& deadline)
     : lists_(*arcs),
       deadline_(deadline),
       limit_(static_cast<Price>(most * kUnits)),
-      queue_(limit_),
       prices_(sites, 0),
       sites_(sites, {kFar, kNone, kNone}),
       offers_(arcs->ranges.size()),
-      chosen_(arcs->ranges.size(), nullptr) {
-  const auto longest = static_cast<std::size_t>(reach);
-  for (std::size_t squared = 0; squared <= longest * longest; ++squared) {
-    weights_.push_back(
-        static_cast<std::uint16_t>(std::lround(std::sqrt(static_cast<double>(squared)) * kUnits)));
-  }
-}
+      chosen_(arcs->ranges.size(), kNoArc) {}
 
 void PriceSearch::run(const std::vector<std::uint32_t>& bidders) {
   bidders_ = bidders;
-  for (const std::uint32_t bidder : bidders_) {
-    for (Arc* arc = lists_.begin(bidder); arc != lists_.end(bidder); ++arc) {
-      arc->units = weights_[arc->squared];
-    }
-  }
   std::vector<std::uint32_t> waiting = bidders_;
   bidWithoutStep(&waiting);
   if (waiting.size() > kFewBidders) {
@@ -65,26 +50,23 @@ void PriceSearch::run(const std::vector<std::uint32_t>& bidders) {
 
 bool PriceSearch::replace(std::uint32_t bidder, std::vector<Arc> arcs) {
   deadline_.check();
-  for (Arc& arc : arcs) {
-    arc.units = weights_[arc.squared];
-  }
   const ArcLists::Range old_range = lists_.ranges[bidder];
-  const Arc* const old_choice = chosen_[bidder];
+  const Word old_choice = chosen_[bidder];
+  const Price old_offer = old_choice == kNoArc ? limit_ : offers_[bidder];
   lists_.ranges[bidder] = {arcs.data(), arcs.data() + arcs.size()};
-  if (old_choice != nullptr) {
-    sites_[old_choice->site].owner = kNone;
-    chosen_[bidder] = nullptr;
+  if (old_choice != kNoArc) {
+    sites_[Arc(old_choice).site()].owner = kNone;
+    chosen_[bidder] = kNoArc;
   }
-  const Price old_offer = old_choice == nullptr ? limit_ : offers_[bidder];
   search(bidder, std::min(limit_, old_offer - bestOffer(bidder).cost));
-  if (chosen_[bidder] != nullptr) {
+  if (chosen_[bidder] != kNoArc) {
     lists_.others.push_back(std::move(arcs));
     return true;
   }
   lists_.ranges[bidder] = old_range;
   chosen_[bidder] = old_choice;
-  if (old_choice != nullptr) {
-    sites_[old_choice->site].owner = bidder;
+  if (old_choice != kNoArc) {
+    sites_[Arc(old_choice).site()].owner = bidder;
     offers_[bidder] = old_offer;
   }
   return false;
@@ -92,31 +74,28 @@ bool PriceSearch::replace(std::uint32_t bidder, std::vector<Arc> arcs) {
 
 /// The innermost loop: without branches, as which arc is the cheapest cannot be foreseen.
 PriceSearch::Offer PriceSearch::bestOffer(std::uint32_t bidder) const {
-  std::uint64_t best = kNoOffer;
-  std::uint64_t second = kNoOffer;
-  const Arc* const arcs = lists_.begin(bidder);
-  const auto count = static_cast<std::uint32_t>(lists_.end(bidder) - arcs);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const auto cost = static_cast<std::uint64_t>(arcs[i].units + prices_[arcs[i].site]);
-    const std::uint64_t offer = (cost << 32U) | i;
+  Word best = kNoArc;
+  Word second = kNoArc;
+  const Word* const prices = prices_.data();
+  for (const Arc arc : lists_.ranges[bidder]) {
+    const Word offer = arc.word() + prices[arc.site()];
     second = std::min(second, std::max(best, offer));
     best = std::min(best, offer);
   }
-  const auto cost = static_cast<Price>(best >> 32U);
   // With nowhere else to go no price is too high, and none is needed.
-  return {arcs + static_cast<std::uint32_t>(best), cost,
-          second == kNoOffer ? cost : static_cast<Price>(second >> 32U)};
+  return {Arc(best - prices[Arc(best).site()]), toPrice(best),
+          toPrice(second == kNoArc ? best : second)};
 }
 
 /// Who had the site before, or kNone.
-std::uint32_t PriceSearch::take(std::uint32_t bidder, const Arc* arc) {
-  Site& site = sites_[arc->site];
-  const std::uint32_t before = site.owner;
+std::uint32_t PriceSearch::take(std::uint32_t bidder, Arc arc) {
+  std::uint32_t& owner = sites_[arc.site()].owner;
+  const std::uint32_t before = owner;
   if (before != kNone) {
-    chosen_[before] = nullptr;
+    chosen_[before] = kNoArc;
   }
-  site.owner = bidder;
-  chosen_[bidder] = arc;
+  owner = bidder;
+  chosen_[bidder] = arc.word();
   return before;
 }
 
@@ -129,14 +108,13 @@ void PriceSearch::bidWithoutStep(std::vector<std::uint32_t>* waiting) {
     for (std::uint32_t bidder : *waiting) {
       for (int times = 0; bidder != kNone; ++times) {
         Offer offer = bestOffer(bidder);
-        if (offer.cost == offer.second && sites_[offer.best->site].owner != kNone) {
-          offer.best = freeSiteAt(bidder, offer.cost);
-        }
-        if (offer.best == nullptr || offer.second > limit_ || times == kDisplacements) {
+        const bool tied = offer.cost == offer.second && sites_[offer.best.site()].owner != kNone;
+        if ((tied && !preferFreeSite(bidder, &offer)) || offer.second > limit_ ||
+            times == kDisplacements) {
           stuck.push_back(bidder);
           break;
         }
-        prices_[offer.best->site] += offer.second - offer.cost;
+        prices_[offer.best.site()] += toWord(offer.second - offer.cost);
         offers_[bidder] = offer.second;
         bidder = take(bidder, offer.best);
       }
@@ -145,31 +123,33 @@ void PriceSearch::bidWithoutStep(std::vector<std::uint32_t>* waiting) {
   }
 }
 
-const Arc* PriceSearch::freeSiteAt(std::uint32_t bidder, Price cost) const {
-  const Arc* found =
-      std::find_if(lists_.begin(bidder), lists_.end(bidder), [this, cost](const Arc& arc) {
-        return sites_[arc.site].owner == kNone && arc.units + prices_[arc.site] == cost;
-      });
-  return found == lists_.end(bidder) ? nullptr : found;
+/// Changes the best of tied offers to one for a free site; false if there is none.
+bool PriceSearch::preferFreeSite(std::uint32_t bidder, Offer* offer) const {
+  for (const Arc arc : lists_.ranges[bidder]) {
+    if (cost(arc) == offer->cost && sites_[arc.site()].owner == kNone) {
+      offer->best = arc;
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Bids above the second best offer by a step, which unties; then takes back what became too dear.
+/// Who is driven out bids at once: he looks at much the same sites, which are at hand.
 void PriceSearch::auction(Price step, std::vector<std::uint32_t>* waiting) {
-  std::vector<std::uint32_t> queue = *waiting;
+  std::size_t bids = 0;
   const std::size_t most = kBidsPerBidder * bidders_.size();
-  bool within_limit = true;
-  for (std::size_t next = 0; next < queue.size() && next < most && within_limit; ++next) {
-    if (next % kBidsPerCheck == 0) {
-      deadline_.check();
-    }
-    const std::uint32_t bidder = queue[next];
-    const Offer offer = bestOffer(bidder);
-    Price& price = prices_[offer.best->site];
-    price += offer.second - offer.cost + step;
-    within_limit = price < limit_;
-    const std::uint32_t before = take(bidder, offer.best);
-    if (before != kNone) {
-      queue.push_back(before);
+  bool goes_on = true;
+  for (std::size_t next = 0; next < waiting->size() && goes_on; ++next) {
+    for (std::uint32_t bidder = (*waiting)[next]; bidder != kNone && goes_on; ++bids) {
+      if (bids % kBidsPerCheck == 0) {
+        deadline_.check();
+      }
+      const Offer offer = bestOffer(bidder);
+      Word& price = prices_[offer.best.site()];
+      price += toWord(offer.second - offer.cost + step);
+      goes_on = toPrice(price) < limit_ && bids < most;
+      bidder = take(bidder, offer.best);
     }
   }
   *waiting = takeBackDearChoices();
@@ -179,14 +159,13 @@ void PriceSearch::auction(Price step, std::vector<std::uint32_t>* waiting) {
 std::vector<std::uint32_t> PriceSearch::takeBackDearChoices() {
   std::vector<std::uint32_t> waiting;
   for (const std::uint32_t bidder : bidders_) {
-    const Offer offer = bestOffer(bidder);
-    offers_[bidder] = offer.cost;
-    const Arc* arc = chosen_[bidder];
-    if (arc != nullptr && arc->units + prices_[arc->site] > offer.cost) {
-      sites_[arc->site].owner = kNone;
-      chosen_[bidder] = nullptr;
+    offers_[bidder] = bestOffer(bidder).cost;
+    const Word chosen = chosen_[bidder];
+    if (chosen != kNoArc && cost(Arc(chosen)) > offers_[bidder]) {
+      sites_[Arc(chosen).site()].owner = kNone;
+      chosen_[bidder] = kNoArc;
     }
-    if (chosen_[bidder] == nullptr) {
+    if (chosen_[bidder] == kNoArc) {
       waiting.push_back(bidder);
     }
   }
@@ -204,23 +183,24 @@ void PriceSearch::search(std::uint32_t start, Price within) {
   std::uint32_t bidder = start;
   Price distance = 0;
   while (true) {
-    const Price base = distance - offers_[bidder];
-    for (const Arc* arc = lists_.begin(bidder); arc != lists_.end(bidder); ++arc) {
-      Site& site = sites_[arc->site];
-      const Price there = base + arc->units + prices_[arc->site];
-      if (there >= site.distance || there >= nearest) {
+    const Word base = toWord(distance - offers_[bidder]);
+    for (const Arc arc : lists_.ranges[bidder]) {
+      const std::uint32_t index = arc.site();
+      const Price there = toPrice(base + arc.word() + prices_[index]);
+      if (there >= nearest || there >= sites_[index].distance) {
         continue;
       }
+      Site& site = sites_[index];
       if (site.distance == kFar) {
-        touched_.push_back(arc->site);
+        touched_.push_back(index);
       }
       site.distance = there;
       site.reached_from = bidder;
       if (site.owner == kNone) {
         nearest = there;
-        goal = arc->site;
+        goal = index;
       } else {
-        queue_.push(there, arc->site);
+        queue_.push(there, index);
       }
     }
     const std::uint32_t next = nextSite(nearest, &distance);
@@ -250,7 +230,7 @@ void PriceSearch::finishSearch(std::uint32_t start, std::uint32_t goal, Price ne
     for (const std::uint32_t index : settled_) {
       const Site& site = sites_[index];
       if (site.distance < nearest) {
-        prices_[index] += nearest - site.distance;
+        prices_[index] += toWord(nearest - site.distance);
         offers_[site.owner] += nearest - site.distance;
       }
     }
@@ -267,11 +247,13 @@ void PriceSearch::flipPath(std::uint32_t start, std::uint32_t goal) {
   std::uint32_t bidder = kNone;
   do {
     bidder = sites_[site].reached_from;
-    const Arc* left = chosen_[bidder];
-    chosen_[bidder] = std::find_if(lists_.begin(bidder), lists_.end(bidder),
-                                   [site](const Arc& arc) { return arc.site == site; });
+    const Word left = chosen_[bidder];
+    const ArcLists::Range range = lists_.ranges[bidder];
+    chosen_[bidder] = std::find_if(range.begin(), range.end(), [site](Arc arc) {
+                        return arc.site() == site;
+                      })->word();
     sites_[site].owner = bidder;
-    site = left == nullptr ? kNone : left->site;
+    site = left == kNoArc ? kNone : Arc(left).site();
   } while (bidder != start);
 }
 
@@ -279,11 +261,11 @@ void PriceSearch::flipPath(std::uint32_t start, std::uint32_t goal) {
 /// cheapest: an auction overshoots. By a search in the slack of all arcs from all sites at once.
 void PriceSearch::lowerPrices() {
   for (const std::uint32_t bidder : bidders_) {
-    if (chosen_[bidder] != nullptr) {
-      const std::uint32_t index = chosen_[bidder]->site;
-      sites_[index].distance = std::min(prices_[index], limit_);
-      if (prices_[index] < limit_) {
-        queue_.push(prices_[index], index);
+    if (chosen_[bidder] != kNoArc) {
+      const std::uint32_t index = Arc(chosen_[bidder]).site();
+      sites_[index].distance = std::min(priceOf(index), limit_);
+      if (priceOf(index) < limit_) {
+        queue_.push(priceOf(index), index);
       }
     }
   }
@@ -291,26 +273,26 @@ void PriceSearch::lowerPrices() {
   for (std::uint32_t next = nextSite(limit_, &distance); next != kNone;
        next = nextSite(limit_, &distance)) {
     const std::uint32_t bidder = sites_[next].owner;
-    const Price base = distance - offers_[bidder];
-    for (const Arc* arc = lists_.begin(bidder); arc != lists_.end(bidder); ++arc) {
-      Site& site = sites_[arc->site];
-      const Price there = base + arc->units + prices_[arc->site];
-      if (site.owner != kNone && there < site.distance) {
+    const Word base = toWord(distance - offers_[bidder]);
+    for (const Arc arc : lists_.ranges[bidder]) {
+      Site& site = sites_[arc.site()];
+      const Price there = toPrice(base + arc.word() + prices_[arc.site()]);
+      if (there < site.distance && site.owner != kNone) {
         site.distance = there;
-        queue_.push(there, arc->site);
+        queue_.push(there, arc.site());
       }
     }
   }
   queue_.clear();
   for (std::size_t index = 0; index < sites_.size(); ++index) {
     if (sites_[index].distance != kFar) {
-      prices_[index] -= sites_[index].distance;
+      prices_[index] -= toWord(sites_[index].distance);
     }
     sites_[index].distance = kFar;
   }
   for (const std::uint32_t bidder : bidders_) {
-    if (chosen_[bidder] != nullptr) {
-      offers_[bidder] = chosen_[bidder]->units + prices_[chosen_[bidder]->site];
+    if (chosen_[bidder] != kNoArc) {
+      offers_[bidder] = cost(Arc(chosen_[bidder]));
     }
   }
 }

@@ -11,56 +11,90 @@
 
 namespace evolin {
 
-/// A predicted pixel (bidder) and a ground-truth pixel (site) within reach.
-struct Arc {
-  std::uint32_t site;
-  std::uint16_t units;    ///< weight in the search's units
-  std::uint16_t squared;  ///< exact weight, squared
+/// A weight in a search's units and a site (ground-truth pixel), for some bidder (predicted pixel)
+/// that has it within reach: in one word, the weight above, so that a price in the same place is
+/// added and the cheapest offer found (of equal ones that for the lowest site) by plain arithmetic
+/// of words.
+class Arc {
+ public:
+  Arc(std::uint32_t site, std::uint32_t units) : Arc((std::uint64_t{units} << kSiteBits) | site) {}
+  explicit Arc(std::uint64_t word) : word_(word) {}
+
+  static constexpr unsigned kSiteBits = 32;
+
+  std::uint64_t word() const { return word_; }
+  std::uint32_t site() const { return static_cast<std::uint32_t>(word_); }
+  std::int32_t units() const { return static_cast<std::int32_t>(word_ >> kSiteBits); }
+
+ private:
+  std::uint64_t word_;
 };
 
 /// The arcs of all bidders.
 struct ArcLists {
   struct Range {
-    Arc* begin;
-    Arc* end;
+    const Arc* first;
+    const Arc* last;
+
+    const Arc* begin() const { return first; }
+    const Arc* end() const { return last; }
   };
   std::vector<Arc> arcs;                 ///< of the bidders there from the beginning
   std::vector<std::vector<Arc>> others;  ///< of those who came instead of one
   std::vector<Range> ranges;             ///< of each bidder
-
-  Arc* begin(std::uint32_t bidder) const { return ranges[bidder].begin; }
-  Arc* end(std::uint32_t bidder) const { return ranges[bidder].end; }
 };
 
 /// The auction algorithm (Bertsekas 1988), then shortest augmenting paths (Jonker and Volgenant
 /// 1987), in weights rounded to whole units, where many paths tie and searches are short.
 class PriceSearch {
  public:
-  /// Takes note of `arcs`, which must outlive it, are up to `reach` pixels long (at most 255), and
-  /// whose units it sets. Prices above `most` pixels are not looked for. Throws DeadlineError from
-  /// run() and replace() when `deadline`, which must outlive it too, passes.
-  PriceSearch(ArcLists* arcs, std::size_t sites, int reach, double most, const Deadline& deadline);
+  /// Takes note of `arcs`, which must outlive it. Prices above `most` pixels are not looked for.
+  /// Throws DeadlineError from run() and replace() when `deadline`, which must outlive it too,
+  /// passes.
+  PriceSearch(ArcLists* arcs, std::size_t sites, double most, const Deadline& deadline);
+
+  /// The weight of an arc of so many pixels, up to 255.
+  static std::uint32_t units(double pixels) {
+    return static_cast<std::uint32_t>(pixels * kUnits + 0.5);
+  }
 
   /// Finds prices and choices for `bidders`, who share no site with any others. The prices of
   /// chosen sites are the lowest, from 0, at which the choices remain the cheapest. Call it once.
   void run(const std::vector<std::uint32_t>& bidders);
 
-  /// Puts the predicted pixel with `arcs`, whose units it sets, in the place of `bidder` if that
+  /// Puts the predicted pixel with `arcs` in the place of `bidder` if that
   /// makes all choices together cheaper. The choices remain the cheapest at their prices; to have
   /// the lowest such prices again, call lowerPrices().
   bool replace(std::uint32_t bidder, std::vector<Arc> arcs);
   void lowerPrices();
 
-  /// Nobody has another's choice; nullptr: none within the price limit.
-  const Arc* chosen(std::uint32_t bidder) const { return chosen_[bidder]; }
+  /// A site that nobody else has chosen; kNone: there is none within the price limit.
+  std::uint32_t chosen(std::uint32_t bidder) const {
+    return chosen_[bidder] == kNoArc ? kNone : Arc(chosen_[bidder]).site();
+  }
   /// In pixels.
-  double price(std::uint32_t site) const { return static_cast<double>(prices_[site]) / kUnits; }
+  double price(std::uint32_t site) const { return static_cast<double>(priceOf(site)) / kUnits; }
+
+  /// Calls visit(site) for all sites that may cost a bidder with a choice less than that, rounding
+  /// considered: two weights in units are wrong by up to one half each.
+  template <typename Visit>
+  void forEachCheaper(std::uint32_t bidder, const Visit& visit) const {
+    const Price most = cost(Arc(chosen_[bidder])) + 1;
+    for (const Arc arc : lists_.ranges[bidder]) {
+      if (cost(arc) <= most) {
+        visit(arc.site());
+      }
+    }
+  }
+
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
  private:
-  using Price = std::int32_t;
+  using Price = std::int32_t;  ///< in units
+  using Word = std::uint64_t;  ///< a price in the place of an arc's weight
 
-  static constexpr Price kUnits = 64;  ///< a pixel
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  static constexpr Price kUnits = 32;  ///< a pixel
+  static constexpr Word kNoArc = ~Word{0};
 
   /// A site, and what the current search knows of it.
   struct Site {
@@ -69,15 +103,22 @@ class PriceSearch {
     std::uint32_t reached_from;
   };
   struct Offer {
-    const Arc* best;
+    Arc best;
     Price cost;
     Price second;
   };
 
+  static Word toWord(Price price) {
+    return static_cast<Word>(static_cast<std::int64_t>(price)) << Arc::kSiteBits;
+  }
+  static Price toPrice(Word word) { return static_cast<Price>(word >> Arc::kSiteBits); }
+
+  Price priceOf(std::uint32_t site) const { return toPrice(prices_[site]); }
+  Price cost(Arc arc) const { return toPrice(arc.word() + prices_[arc.site()]); }
   Offer bestOffer(std::uint32_t bidder) const;
-  std::uint32_t take(std::uint32_t bidder, const Arc* arc);
+  std::uint32_t take(std::uint32_t bidder, Arc arc);
   void bidWithoutStep(std::vector<std::uint32_t>* waiting);
-  const Arc* freeSiteAt(std::uint32_t bidder, Price cost) const;
+  bool preferFreeSite(std::uint32_t bidder, Offer* offer) const;
   void auction(Price step, std::vector<std::uint32_t>* waiting);
   std::vector<std::uint32_t> takeBackDearChoices();
   void search(std::uint32_t start, Price within);
@@ -87,14 +128,13 @@ class PriceSearch {
 
   ArcLists& lists_;
   const Deadline& deadline_;
-  Price limit_;                         ///< in units, as all prices
-  std::vector<std::uint16_t> weights_;  ///< by squared length
+  Price limit_;
   BucketQueue queue_;
-  std::vector<Price> prices_;  ///< of sites
+  std::vector<Word> prices_;  ///< of sites
   std::vector<Site> sites_;
   std::vector<std::uint32_t> bidders_;
-  std::vector<Price> offers_;       ///< least cost of each bidder at current prices
-  std::vector<const Arc*> chosen_;  ///< of each bidder, or nullptr
+  std::vector<Price> offers_;  ///< least cost of each bidder at current prices
+  std::vector<Word> chosen_;   ///< arc of each bidder, or kNoArc
 
   std::vector<std::uint32_t> touched_;  ///< sites with a distance in the current search
   std::vector<std::uint32_t> settled_;

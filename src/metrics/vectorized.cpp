@@ -1,4 +1,4 @@
-// Preparing lines, matching predictions with ground truth, and keeping one bit a setting.
+// Sums over frames, with one bit a setting for every prediction.
 #include "evolin_ros/metrics/vectorized.h"
 
 #include <algorithm>
@@ -6,130 +6,15 @@
 #include <iterator>
 #include <utility>
 
+#include "detection_matching.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
-#include "evolin_ros/geometry/clipping.h"
-#include "nearest_line.h"
-#include "scaling.h"
 
 namespace evolin {
 
 namespace {
 
 constexpr double kNoFilter = -std::numeric_limits<double>::infinity();
-
-LineSegments prepareGroundTruth(const std::string& frame, ImageSize size,
-                                const LineSegments& lines) {
-  // Annotations may touch the outer edge of the first pixels, whose centres are at 0.
-  const double low_x = -0.5 * kScaledSide / size.width;
-  const double low_y = -0.5 * kScaledSide / size.height;
-  LineSegments result;
-  result.reserve(lines.size());
-  for (std::size_t row = 0; row < lines.size(); ++row) {
-    const LineSegment& line = lines[row];
-    if (!line.isFinite()) {
-      throw GroundTruthError(frame, row, coordinates(line) + " is not finite");
-    }
-    const LineSegment prepared = scaled(line, size);
-    if (prepared.x1 == prepared.x2 && prepared.y1 == prepared.y2) {
-      throw GroundTruthError(frame, row,
-                             coordinates(line) + " has no length; expected two distinct endpoints");
-    }
-    if (std::max({prepared.x1, prepared.y1, prepared.x2, prepared.y2}) > kScaledSide ||
-        std::min(prepared.x1, prepared.x2) < low_x || std::min(prepared.y1, prepared.y2) < low_y) {
-      throw GroundTruthError(frame, row,
-                             coordinates(line) + " leaves the image of " +
-                                 std::to_string(size.width) + " x " + std::to_string(size.height) +
-                                 " pixels");
-    }
-    result.push_back(prepared);
-  }
-  return result;
-}
-
-/// Scaled predictions by the protocol's rule, without those that it drops.
-LineSegments preparePredictions(const std::string& frame, ImageSize size, const LineSegments& lines,
-                                bool with_scores, Protocol protocol) {
-  const Rectangle clamping{0, 0, kScaledSide - 1, kScaledSide - 1};
-  const Rectangle clipping{0, 0, kScaledSide, kScaledSide};
-  LineSegments result;
-  result.reserve(lines.size());
-  for (std::size_t row = 0; row < lines.size(); ++row) {
-    const LineSegment& line = lines[row];
-    if (!line.isFinite()) {
-      throw Error("predicted lines of frame " + frame + ", row " + std::to_string(row) + ": " +
-                  coordinates(line) + " is not finite");
-    }
-    if (with_scores && !line.hasScore()) {
-      throw Error("predicted lines of frame " + frame + ", row " + std::to_string(row) +
-                  ": no score; expected a score for every line or for none");
-    }
-    if (protocol == Protocol::kEvolin) {
-      // The published rule drops every exactly horizontal or vertical line, not only points.
-      const LineSegment clamped = clampToRectangle(scaled(line, size), clamping);
-      if (clamped.x1 != clamped.x2 && clamped.y1 != clamped.y2) {
-        result.push_back(clamped);
-      }
-    } else {
-      const std::optional<LineSegment> clipped = clipToRectangle(scaled(line, size), clipping);
-      if (clipped && !(clipped->x1 == clipped->x2 && clipped->y1 == clipped->y2)) {
-        result.push_back(*clipped);
-      }
-    }
-  }
-  return result;
-}
-
-/// For every ground-truth row the best prediction among those that went to it and are near enough;
-/// sets that prediction's `bit`.
-void markTruePositives(const LineSegments& predictions, const std::vector<NearestLine>& nearest,
-                       double threshold, bool scored, Protocol protocol, std::uint32_t bit,
-                       std::vector<std::int64_t>* best, std::vector<std::uint32_t>* hits) {
-  std::fill(best->begin(), best->end(), -1);
-  for (std::size_t index = 0; index < predictions.size(); ++index) {
-    const NearestLine& found = nearest[index];
-    const bool near_enough =
-        protocol == Protocol::kEvolin ? found.distance < threshold : found.distance <= threshold;
-    if (!near_enough) {
-      continue;
-    }
-    std::int64_t& holder = (*best)[found.row];
-    if (holder < 0 || (scored ? predictions[index].score > predictions[holder].score
-                              : found.distance < nearest[holder].distance)) {
-      holder = static_cast<std::int64_t>(index);
-    }
-  }
-  for (const std::int64_t holder : *best) {
-    if (holder >= 0) {
-      (*hits)[holder] |= bit;
-    }
-  }
-}
-
-/// One word of bits a prediction, in the order of options.distances x options.distance_thresholds.
-std::vector<std::uint32_t> findHits(const LineSegments& predictions,
-                                    const LineSegments& ground_truth, bool scored,
-                                    const VectorizedOptions& options) {
-  const double reach =
-      *std::max_element(options.distance_thresholds.begin(), options.distance_thresholds.end());
-  const bool gate = options.protocol == Protocol::kEvolin;
-  NearestLineSearch search(ground_truth);
-  std::vector<NearestLine> nearest(predictions.size());
-  std::vector<std::int64_t> best(ground_truth.size());
-  std::vector<std::uint32_t> hits(predictions.size(), 0);
-  std::uint32_t bit = 1;
-  for (const LineDistance distance : options.distances) {
-    for (std::size_t index = 0; index < predictions.size(); ++index) {
-      nearest[index] = search.find(distance, predictions[index], reach, gate);
-    }
-    for (const double threshold : options.distance_thresholds) {
-      markTruePositives(predictions, nearest, threshold, scored, options.protocol, bit, &best,
-                        &hits);
-      bit <<= 1U;
-    }
-  }
-  return hits;
-}
 
 }  // namespace
 
@@ -162,10 +47,7 @@ std::vector<VectorizedMetrics::FrameCount>::const_iterator VectorizedMetrics::fi
 void VectorizedMetrics::addFrame(std::uint32_t frame_number, const std::string& frame_name,
                                  ImageSize size, const LineSegments& predicted,
                                  const LineSegments& ground_truth, bool scored) {
-  if (size.width <= 0 || size.height <= 0) {
-    throw Error("image of frame " + frame_name + ": size " + std::to_string(size.width) + " x " +
-                std::to_string(size.height) + "; expected a positive number of pixels");
-  }
+  checkSize(frame_name, size);
   if (!predicted.empty() && scored_ && *scored_ != scored) {
     throw Error(
         "predicted lines of frame " + frame_name + (scored ? " have" : " lack") +
@@ -178,7 +60,7 @@ void VectorizedMetrics::addFrame(std::uint32_t frame_number, const std::string& 
   }
   const LineSegments truth = prepareGroundTruth(frame_name, size, ground_truth);
   const LineSegments lines =
-      preparePredictions(frame_name, size, predicted, scored, options_.protocol);
+      preparePredictions(frame_name, size, predicted, scored, options_.protocol).lines;
   const std::vector<std::uint32_t> hits = findHits(lines, truth, scored, options_);
 
   std::vector<Prediction> added;

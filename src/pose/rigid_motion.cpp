@@ -63,13 +63,6 @@ Pose compose(const Pose& a, const Pose& b) {
   return product;
 }
 
-Pose inverse(const Pose& motion) {
-  Pose result;
-  result.rotation = motion.rotation.conjugate();
-  result.translation = -(result.rotation * motion.translation);
-  return result;
-}
-
 Eigen::Matrix<double, 6, 6> adjoint(const Pose& motion) {
   const Eigen::Matrix3d rotation = motion.rotation.toRotationMatrix();
   Eigen::Matrix<double, 6, 6> result = Eigen::Matrix<double, 6, 6>::Zero();

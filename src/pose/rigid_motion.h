@@ -18,8 +18,6 @@ Vector6d logMotion(const Pose& motion);
 /// a after b.
 Pose compose(const Pose& a, const Pose& b);
 
-Pose inverse(const Pose& motion);
-
 /// Ad with motion * exp(d) = exp(Ad d) * motion; rotation first.
 Eigen::Matrix<double, 6, 6> adjoint(const Pose& motion);
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "camera_source.h"
+#include "evolin_ros/drawing/overlay.h"
 #include "evolin_ros/geometry/line_selection.h"
 #include "health.h"
-#include "overlay.h"
 
 namespace evolin::ros_shell {
 

@@ -284,9 +284,12 @@ class EvaluatorNodelet : public SafeNodelet {
   }
 
   bool onFinish(Trigger::Request& /*request*/, Trigger::Response& response) {
-    const bool complete =
-        session_->drain([this] { return !ros::ok() || stopping_; },
-                        [this] { return !matches_heard_ && matches_.getNumPublishers() > 0; });
+    const bool complete = session_->drain([this] { return !ros::ok() || stopping_; },
+                                          [this] {
+                                            return !options_.pass.matches_from_ids &&
+                                                   !matches_heard_ &&
+                                                   matches_.getNumPublishers() > 0;
+                                          });
     session_->publishSums(true);
     return answer(&response, [this, complete] { return session_->save(complete, true); });
   }

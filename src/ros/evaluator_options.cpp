@@ -24,6 +24,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   }
   std::string strategy = toString(motion.pose_method.strategy);
   std::string pose_from = "topic";
+  std::string matches_from = "topic";
   double max_time_difference = toSeconds(motion.max_time_difference);
   double heatmap_budget = 1;
   PoseErrorOptions& pose_errors = options.pass.evaluation.pose_errors;
@@ -37,6 +38,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   reader.read("distance_thresholds", &vectorized.distance_thresholds,
               std::numeric_limits<double>::min(), 1e9);
   reader.read("frame_step", &options.pass.frame_step, 1, 100000);
+  reader.read("matches_from", &matches_from, {"topic", "ids"});
   reader.read("buffer", &buffer, 2, 1000000);
   reader.read("repeatability_steps", &motion.repeatabilities.frame_steps, 1, 100000);
   reader.read("repeatability_score_thresholds", &motion.repeatability_score_thresholds, -1e300,
@@ -104,6 +106,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   motion.depth_buffer = static_cast<std::size_t>(depth_buffer);
   options.pose_from =
       pose_from == "tf" ? EvaluatorOptions::PoseFrom::kTf : EvaluatorOptions::PoseFrom::kTopic;
+  options.pass.matches_from_ids = matches_from == "ids";
   options.pass.buffer = static_cast<std::size_t>(buffer);
   const std::size_t most = VectorizedMetrics::kMaxSettings / vectorized.distances.size();
   if (vectorized.distance_thresholds.size() > most) {

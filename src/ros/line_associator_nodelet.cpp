@@ -14,10 +14,10 @@
 #include "associator_options.h"
 #include "camera_source.h"
 #include "conversions.h"
+#include "evolin_ros/drawing/overlay.h"
 #include "frame_lines_joiner.h"
 #include "health.h"
 #include "node_parameters.h"
-#include "overlay.h"
 #include "plugin_loader.h"
 #include "safe_nodelet.h"
 #include "topic_watchdog.h"
@@ -54,6 +54,7 @@ class LineAssociatorNodelet : public SafeNodelet {
   struct Item {
     FrameLinesJoiner::Pair pair;
     ros::WallTime arrival;
+    int pass;
   };
 
   void start() override {
@@ -195,13 +196,18 @@ class LineAssociatorNodelet : public SafeNodelet {
     for (const FrameLinesJoiner::Pair& pair : result.complete) {
       if (pair.begins_pass) {
         NODELET_INFO("time jumped back: frames of the last pass are forgotten");
+        ++pass_;
       }
-      health_->dropped("dropped to keep up", queue_->push({pair, now}));
+      health_->dropped("dropped to keep up", queue_->push({pair, now, pass_}));
     }
   }
 
   /// On the queue's thread.
   void work(const Item& item) {
+    if (window_pass_ != item.pass) {
+      window_.clear();
+      window_pass_ = item.pass;
+    }
     try {
       const double processing = associate(item.pair);
       health_->finished((ros::WallTime::now() - item.arrival).toSec(), processing);
@@ -286,8 +292,10 @@ class LineAssociatorNodelet : public SafeNodelet {
   WallThrottle errors_;
   std::unique_ptr<TopicWatchdog> watchdog_;
   std::unique_ptr<Health> health_;
+  int pass_ = 0;  ///< of the newest frame: how often time jumped back
   // Of the queue's thread alone, up to the blank line.
   std::deque<std::shared_ptr<FrameLines>> window_;  ///< the last frame_step + 1 frames
+  int window_pass_ = 0;
   std::string window_source_;
   Rectify window_rectify_ = Rectify::kNever;
   std::shared_ptr<LineAssociator> describer_;  ///< whose descriptions the window's frames hold

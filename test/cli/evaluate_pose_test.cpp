@@ -241,7 +241,7 @@ TEST_F(EvaluatePoseFiles, APairWithoutAPoseFoundIsInfinite) {
 
 TEST_F(EvaluatePoseFiles, RefusesWhatDoesNotFitTogether) {
   folder_.write("associations/0000_0001.csv", "0,0\n1,9\n");
-  expectFailure({}, kExitFailed, "names line 9 of the second frame");
+  expectFailure({}, kExitFailed, "0000_0001.csv:2: names line 9 of the second frame");
   folder_.write("associations/0000_0001.csv", "0,0\n");
   folder_.write("depth_associations.txt", "0 0\n1 7\n");
   expectFailure({}, kExitFailed, "depth_associations.txt:2");
@@ -251,7 +251,8 @@ TEST_F(EvaluatePoseFiles, RefusesWhatDoesNotFitTogether) {
   expectFailure({}, kExitFailed, "occurs twice");
   folder_.write("depth_associations.txt", "0 0\n1 1\n2 2\n");
   folder_.write("poses.txt", "0 0 0 0 0 0 0 1\n");
-  expectFailure({}, kExitFailed, "none for frame 0001");
+  expectFailure({}, kExitFailed, "1 poses, expected one for each of the 3 line files");
+  folder_.write("poses.txt", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
   expectFailure({"--pose-offset", "-5"}, kExitFailed, "2 without a pose");
 }
 
@@ -259,6 +260,24 @@ TEST_F(EvaluatePoseFiles, RefusesPairsNamedAfterOtherFrames) {
   fs::rename(folder_.path() / "associations/0001_0002.csv",
              folder_.path() / "associations/0001_0000.csv");
   expectFailure({}, kExitFailed, "names frames 0001 and 0000");
+}
+
+TEST_F(EvaluatePoseFiles, FramesAreTheRowsOfTheDepthListWherePosesAre) {
+  folder_.write("depth_associations.txt", "0 0\n2 2\n");
+  folder_.write("poses.txt", "0 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  fs::remove(folder_.path() / "associations/0001_0002.csv");
+  expectFailure({}, kExitFailed, "names frames 0000 and 0001");
+  fs::rename(folder_.path() / "associations/0000_0001.csv",
+             folder_.path() / "associations/0000_0002.csv");
+  const Outcome outcome = evaluatePoses(folders());
+  ASSERT_EQ(outcome.status, kExitDone) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("1 pairs of frames 1 apart"), std::string::npos) << outcome.errors;
+  EXPECT_LT(valueOf(outcome.entries, "median_angular_rotation_error"), 1e-6);
+}
+
+TEST_F(EvaluatePoseFiles, RefusesDepthImagesOfAnotherSize) {
+  folder_.write("depth/0001.pgm", "P5\n1 1\n65535\n12");
+  expectFailure({}, kExitFailed, "0001.pgm: the depth image is 1 x 1 pixels, expected 100 x 100");
 }
 
 TEST_F(EvaluatePoseFiles, RefusesAsManyAssociationsAsFrames) {

@@ -203,19 +203,29 @@ TEST_F(EvaluateTest, OverwritesItsOwnOutputFolder) {
 }
 
 TEST_F(EvaluateTest, OverwritesForeignFilesByForceAlone) {
-  folder_.write("mine/notes.txt", "do not touch");
-  EXPECT_EQ(association({"-o", path("mine")}).status, kExitDone);
-  folder_.write("mine/classification_metrics.json", "edited");
+  folder_.write("mine/classification_metrics.json", "theirs");
   expectFailure(association({"-o", path("mine")}), {"classification_metrics.json", "--force"});
-  EXPECT_EQ(readText(path("mine/classification_metrics.json")), "edited");
+  EXPECT_EQ(readText(path("mine/classification_metrics.json")), "theirs");
   EXPECT_EQ(association({"-o", path("mine"), "--force"}).status, kExitDone);
   EXPECT_EQ(readText(path("mine/classification_metrics.json")).front(), '[');
+  // By now the file is one that evaluate made; those beside it are not.
+  EXPECT_EQ(association({"-o", path("mine")}).status, kExitDone);
+  folder_.write("mine/vectorized_classification_metrics.json", "theirs");
+  expectFailure(vectorized({"-o", path("mine")}), {"vectorized_classification_metrics.json"});
+  EXPECT_EQ(readText(path("mine/vectorized_classification_metrics.json")), "theirs");
+}
+
+TEST_F(EvaluateTest, FamiliesShareAnOutputFolder) {
+  for (int pass = 0; pass < 2; ++pass) {
+    EXPECT_EQ(association({"-o", path("out")}).status, kExitDone) << pass;
+    EXPECT_EQ(vectorized({"-o", path("out")}).status, kExitDone) << pass;
+  }
 }
 
 TEST_F(EvaluateTest, FormatsAgree) {
   const std::string csv = association({"--format", "csv"}).out;
   EXPECT_EQ(csv.rfind("name,", 0), 0U);
-  EXPECT_NE(csv.find("precision,,,,,,0.5,,\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("precision,,,,,,0.5,,,\n"), std::string::npos) << csv;
   const std::string table = association({"--format", "table"}).out;
   EXPECT_NE(table.find("0.5000  0.3333  0.4000"), std::string::npos) << table;
 }
@@ -231,7 +241,7 @@ TEST_F(EvaluateTest, PaperProtocolAnchorsAveragePrecision) {
 /// Forty frames with some right and some wrong lines.
 void writeSequence(const test::TemporaryFolder& folder) {
   test::RandomLines random(3);
-  const auto toText = [](const LineSegments& lines) {
+  const auto to_text = [](const LineSegments& lines) {
     std::string text;
     for (const LineSegment& line : lines) {
       text += formatDouble(line.x1) + "," + formatDouble(line.y1) + "," + formatDouble(line.x2) +
@@ -247,8 +257,8 @@ void writeSequence(const test::TemporaryFolder& folder) {
     for (const LineSegment& line : predicted) {
       scores += formatDouble(line.score) + "\n";
     }
-    folder.write("many/gt/" + stem + ".csv", toText(truth));
-    folder.write("many/pred/" + stem + ".csv", toText(predicted));
+    folder.write("many/gt/" + stem + ".csv", to_text(truth));
+    folder.write("many/pred/" + stem + ".csv", to_text(predicted));
     folder.write("many/scores/" + stem + ".csv", scores);
     std::filesystem::create_directories(folder.path() / "many/imgs");
     cv::imwrite((folder.path() / "many/imgs" / (stem + ".png")).string(),
@@ -340,11 +350,11 @@ TEST_F(EvaluateTest, BadContentIsNamedByFileAndLine) {
   expectFailure(association(), {"gt_pairs/0001_x.csv:2", "'-1'"});
 }
 
-TEST_F(EvaluateTest, BadGroundTruthIsNamedByFrameAndRow) {
+TEST_F(EvaluateTest, BadGroundTruthIsNamedByFileAndLineAndByFrameAndRow) {
   folder_.write("gt/0001.csv", "10,10,50,30\n4,4,4,4\n");
-  expectFailure(vectorized(), {"0001", "row 1", "4,4,4,4"});
+  expectFailure(vectorized(), {"gt/0001.csv:2: ", "frame 0001, row 1", "4,4,4,4"});
   folder_.write("gt/0001.csv", "10,10,50,30\n4,4,400,4\n");
-  expectFailure(vectorized(), {"0001", "row 1", "64 x 48"});
+  expectFailure(vectorized(), {"gt/0001.csv:2: ", "frame 0001, row 1", "64 x 48"});
 }
 
 TEST_F(EvaluateTest, TheFirstOfSeveralBadFramesIsNamedWithAnyNumberOfThreads) {

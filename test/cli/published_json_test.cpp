@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -130,9 +131,28 @@ TEST(ResultTable, HasARowForEachSettingAndAColumnForEachName) {
             "structural                   5     0.5000  0.2500 [0.2000, 0.3000]\n"
             "structural                  10     0.5000                        -\n");
   EXPECT_EQ(toCsv({precision, recall, curve}),
-            "name,distance,distance_threshold,score_threshold,step,threshold,value,low,high\n"
-            "precision,structural,5,,,,0.5,,\n"
-            "recall,structural,5,,,,0.25,0.2,0.3\n");
+            "name,distance,distance_threshold,score_threshold,step,threshold,value,low,high,"
+            "reason\n"
+            "precision,structural,5,,,,0.5,,,\n"
+            "recall,structural,5,,,,0.25,0.2,0.3,\n");
+}
+
+TEST(ResultTable, SaysWhyThereIsNoValue) {
+  PublishedEntry precision = valueEntry("precision", 0);
+  precision.undefined = "nothing was found";
+  precision.confidence_interval = ConfidenceInterval{0.95, 0, 0};
+  PublishedEntry score = precision;
+  score.name = "fscore";
+  PublishedEntry area = valueEntry("area", std::nan(""));
+  area.undefined = "no scores";
+  const std::vector<PublishedEntry> entries = {precision, valueEntry("recall", 0), score, area};
+  EXPECT_EQ(toTable(entries),
+            "precision  recall  fscore  area\n        -  0.0000       -     -\n"
+            "no value for precision, fscore: nothing was found\nno value for area: no scores\n");
+  EXPECT_EQ(toCsv({precision}),
+            "name,distance,distance_threshold,score_threshold,step,threshold,value,low,high,"
+            "reason\nprecision,,,,,,,,,nothing was found\n");
+  EXPECT_NE(toPublishedJson({area}).find("\"value\": NaN"), std::string::npos);
 }
 
 TEST(ResultTable, HoldsValuesThatDependOnNothing) {

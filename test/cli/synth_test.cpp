@@ -137,7 +137,7 @@ TEST_F(SynthTest, BagHasTheSameFrames) {
   ASSERT_EQ(run("room.bag").status, 0);
   const synthetic::SyntheticSequence expected(sameOptions());
   const rosbag::Bag bag(path("room.bag"));
-  const auto numberOf = [&](const std_msgs::Header& header) {
+  const auto number_of = [&](const std_msgs::Header& header) {
     for (std::size_t i = 0; i < expected.size(); ++i) {
       if (ros_shell::toRosTime(expected.stamp(i)) == header.stamp) {
         return i;
@@ -151,14 +151,14 @@ TEST_F(SynthTest, BagHasTheSameFrames) {
     ++counts[message.getTopic()];
     if (message.getTopic() == topics::kImage || message.getTopic() == topics::kDepth) {
       const sensor_msgs::Image::ConstPtr image = message.instantiate<sensor_msgs::Image>();
-      const SequenceFrame frame = expected.frame(numberOf(image->header));
+      const SequenceFrame frame = expected.frame(number_of(image->header));
       const cv::Mat& pixels =
           message.getTopic() == topics::kImage ? frame.frame.image : frame.frame.depth;
       ASSERT_EQ(image->data.size(), pixels.total() * pixels.elemSize());
       EXPECT_EQ(std::memcmp(image->data.data(), pixels.data, image->data.size()), 0);
     } else if (message.getTopic() == topics::kGroundTruthLines) {
       const auto lines = message.instantiate<evolin_ros::LineArray>();
-      const LineSegments given = expected.groundTruth(numberOf(lines->header));
+      const LineSegments given = expected.groundTruth(number_of(lines->header));
       ASSERT_EQ(lines->lines.size(), given.size());
       for (std::size_t row = 0; row < given.size(); ++row) {
         EXPECT_EQ(lines->lines[row].id, given[row].id);

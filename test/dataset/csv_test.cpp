@@ -137,7 +137,7 @@ TEST(ReadScoredLinesCsv, JoinsByRowAndNamesTheScoreFileOtherwise) {
 TEST(WriteCsv, ReadsBackTheSame) {
   const test::TemporaryFolder folder;
   std::mt19937_64 random(2);
-  const auto anyFinite = [&] {
+  const auto any_finite = [&] {
     double value = 0;
     do {
       const std::uint64_t bits = random();
@@ -147,7 +147,7 @@ TEST(WriteCsv, ReadsBackTheSame) {
   };
   LineSegments lines(500);
   for (LineSegment& line : lines) {
-    line = {anyFinite(), anyFinite(), anyFinite(), anyFinite(), anyFinite()};
+    line = {any_finite(), any_finite(), any_finite(), any_finite(), any_finite()};
   }
   writeLinesCsv(folder.path() / "lines" / "0.csv", lines);
   writeScoresCsv(folder.path() / "scores" / "0.csv", lines);
@@ -211,7 +211,7 @@ TEST(ListFiles, SortsByNameAndComparesExtensionsWithoutCase) {
 
 TEST(ListFiles, NamesTheFolderThatIsMissingOrEmpty) {
   const test::TemporaryFolder folder;
-  const auto messageOf = [](const std::filesystem::path& path) -> std::string {
+  const auto message_of = [](const std::filesystem::path& path) -> std::string {
     try {
       listFiles(path, {".csv", ".txt"});
     } catch (const Error& error) {
@@ -219,10 +219,10 @@ TEST(ListFiles, NamesTheFolderThatIsMissingOrEmpty) {
     }
     return "no Error";
   };
-  EXPECT_EQ(messageOf(folder.path()), folder.path().string() + ": has no file .csv or .txt");
+  EXPECT_EQ(message_of(folder.path()), folder.path().string() + ": has no file .csv or .txt");
   const std::string missing = (folder.path() / "missing").string();
-  EXPECT_EQ(messageOf(missing), missing + ": is no folder, expected one with files .csv or .txt");
-  EXPECT_NE(messageOf(folder.write("file", "")), "no Error");
+  EXPECT_EQ(message_of(missing), missing + ": is no folder, expected one with files .csv or .txt");
+  EXPECT_NE(message_of(folder.write("file", "")), "no Error");
 }
 
 TEST(Csv, AnswersAnyBytesWithValuesOrOneError) {

@@ -33,6 +33,18 @@ TEST_F(DepthAssociationsTest, MapImagesToDepths) {
   EXPECT_EQ(read(""), Rows(3));
 }
 
+TEST_F(DepthAssociationsTest, RowsKeepTheOrderOfTheFile) {
+  const std::vector<DepthAssociation> rows =
+      readDepthAssociationRows(folder_.write("list.txt", "# list\n2 1\n\n0 3\n"), 3, 4);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].image, 2U);
+  EXPECT_EQ(rows[0].depth, 1U);
+  EXPECT_EQ(rows[0].line, 2);
+  EXPECT_EQ(rows[1].image, 0U);
+  EXPECT_EQ(rows[1].depth, 3U);
+  EXPECT_EQ(rows[1].line, 4);
+}
+
 TEST_F(DepthAssociationsTest, NameFileLineAndValueOfBadRows) {
   expectRefused("0 0\n1\n", {"list.txt:2", "1 fields", "'1'"});
   expectRefused("0 0 0\n", {"list.txt:1", "3 fields"});

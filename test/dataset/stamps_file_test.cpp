@@ -92,20 +92,20 @@ TEST(WriteStampsFile, RefusesWhatWouldNotReadBack) {
 
 TEST(FindNearest, TakesTheNearerNeighbourWithinTolerance) {
   const std::vector<StampedFile> entries = {{100, "a"}, {200, "b"}, {310, "c"}};
-  const auto nameAt = [&](Stamp stamp, Stamp tolerance) {
+  const auto name_at = [&](Stamp stamp, Stamp tolerance) {
     const StampedFile* found = findNearest(entries, stamp, tolerance);
     return found == nullptr ? std::string("none") : found->file;
   };
-  EXPECT_EQ(nameAt(200, 0), "b");
-  EXPECT_EQ(nameAt(201, 0), "none");
-  EXPECT_EQ(nameAt(249, 100), "b");
-  EXPECT_EQ(nameAt(256, 100), "c");
-  EXPECT_EQ(nameAt(150, 50), "a");  // as near to both: the earlier
-  EXPECT_EQ(nameAt(0, 100), "a");
-  EXPECT_EQ(nameAt(0, 99), "none");
-  EXPECT_EQ(nameAt(400, 90), "c");
-  EXPECT_EQ(nameAt(400, 89), "none");
-  EXPECT_EQ(nameAt(200, -1), "none");
+  EXPECT_EQ(name_at(200, 0), "b");
+  EXPECT_EQ(name_at(201, 0), "none");
+  EXPECT_EQ(name_at(249, 100), "b");
+  EXPECT_EQ(name_at(256, 100), "c");
+  EXPECT_EQ(name_at(150, 50), "a");  // as near to both: the earlier
+  EXPECT_EQ(name_at(0, 100), "a");
+  EXPECT_EQ(name_at(0, 99), "none");
+  EXPECT_EQ(name_at(400, 90), "c");
+  EXPECT_EQ(name_at(400, 89), "none");
+  EXPECT_EQ(name_at(200, -1), "none");
   EXPECT_EQ(findNearest({}, 0, 100), nullptr);
 }
 

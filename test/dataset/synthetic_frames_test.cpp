@@ -254,7 +254,7 @@ TEST(SyntheticFrames, NoiseDiffersFromFrameToFrameAndLeavesDepthAlone) {
   const SyntheticSequence clean(options);
   options.noise = 4;
   const SyntheticSequence noisy(options);
-  const auto noiseOf = [&](std::size_t number) {
+  const auto noise_of = [&](std::size_t number) {
     cv::Mat difference;
     cv::subtract(noisy.frame(number).frame.image, clean.frame(number).frame.image, difference,
                  cv::noArray(), CV_16S);
@@ -262,12 +262,12 @@ TEST(SyntheticFrames, NoiseDiffersFromFrameToFrameAndLeavesDepthAlone) {
   };
   cv::Scalar mean;
   cv::Scalar deviation;
-  cv::meanStdDev(noiseOf(0), mean, deviation);
+  cv::meanStdDev(noise_of(0), mean, deviation);
   for (int channel = 0; channel < 3; ++channel) {
     EXPECT_NEAR(mean[channel], 0, 0.25);
     EXPECT_NEAR(deviation[channel], 4, 0.25);
   }
-  EXPECT_FALSE(sameBytes(noiseOf(0), noiseOf(1)));
+  EXPECT_FALSE(sameBytes(noise_of(0), noise_of(1)));
   EXPECT_TRUE(sameBytes(noisy.frame(0).frame.depth, clean.frame(0).frame.depth));
 }
 

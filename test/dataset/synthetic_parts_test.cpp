@@ -73,7 +73,7 @@ TEST(SyntheticParts, EveryVisibleStretchIsAnnotatedAndNoHiddenOne) {
   std::size_t split = 0;
   for (const std::size_t frame : {0U, 45U, 80U}) {
     for (std::size_t edge = 0; edge < defaultSequence().scene().edges.size(); ++edge) {
-      const auto nearALine = [&](const Step& step, bool own, double reach) {
+      const auto near_a_line = [&](const Step& step, bool own, double reach) {
         return std::any_of(defaultGroundTruth()[frame].begin(), defaultGroundTruth()[frame].end(),
                            [&](const LineSegment& line) {
                              return (defaultSequence().edgeOf(line.id) == edge) == own &&
@@ -81,7 +81,7 @@ TEST(SyntheticParts, EveryVisibleStretchIsAnnotatedAndNoHiddenOne) {
                            });
       };
       // Where a part ends either answer is right.
-      const auto nearAnEnd = [frame](const Step& step) {
+      const auto near_an_end = [frame](const Step& step) {
         return std::any_of(defaultGroundTruth()[frame].begin(), defaultGroundTruth()[frame].end(),
                            [&step](const LineSegment& line) {
                              return std::min(std::hypot(step.x - line.x1, step.y - line.y1),
@@ -92,11 +92,11 @@ TEST(SyntheticParts, EveryVisibleStretchIsAnnotatedAndNoHiddenOne) {
       std::string met = "h";
       for (const Step& step : walkAlong(defaultSequence().scene().edges[edge], oracle,
                                         defaultSequence().pose(frame))) {
-        const bool own = nearALine(step, true, 1e-3);
+        const bool own = near_a_line(step, true, 1e-3);
         if (step.hidden) {
-          met += own && !nearAnEnd(step) ? 'H' : 'h';
+          met += own && !near_an_end(step) ? 'H' : 'h';
         } else {
-          met += own ? 'A' : nearALine(step, false, kTwinDistance + 1e-3) ? 'T' : 'M';
+          met += own ? 'A' : near_a_line(step, false, kTwinDistance + 1e-3) ? 'T' : 'M';
         }
       }
       met += 'h';
@@ -138,7 +138,7 @@ TEST(SyntheticParts, EveryVisibleStretchIsAnnotatedAndNoHiddenOne) {
 
 TEST(SyntheticParts, NoLineRunsBesideAnotherFor10Pixels) {
   constexpr double kSample = 0.25;
-  const auto longestRun = [](const LineSegment& line, const LineSegment& other) {
+  const auto longest_run = [](const LineSegment& line, const LineSegment& other) {
     double longest = 0;
     double run = 0;
     for (double along = 0; along <= line.length(); along += kSample) {
@@ -157,7 +157,7 @@ TEST(SyntheticParts, NoLineRunsBesideAnotherFor10Pixels) {
         // Lines farther apart than their lengths need no walk.
         const double gap = std::hypot(lines[i].x1 - lines[j].x1, lines[i].y1 - lines[j].y1);
         if (gap < lines[i].length() + lines[j].length() + 2 * kTwinDistance) {
-          EXPECT_LT(std::min(longestRun(lines[i], lines[j]), longestRun(lines[j], lines[i])),
+          EXPECT_LT(std::min(longest_run(lines[i], lines[j]), longest_run(lines[j], lines[i])),
                     kMinLength + 2 * kSample)
               << lines[i].id << " and " << lines[j].id << ", frame " << frame;
         }

@@ -154,6 +154,7 @@ TEST_F(SyntheticScores, FallWithDisturbance) {
     const std::vector<DetectionEntry> entries =
         scored(AnnotationFolder(lines), Protocol::kEvolin).detectionEntries();
     std::vector<double> scores;
+    scores.reserve(entries.size());
     for (const DetectionEntry& entry : entries) {
       scores.push_back(entry.counts.fScore());
     }

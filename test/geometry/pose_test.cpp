@@ -1,4 +1,4 @@
-// Interpolation of poses: hand-computed cases and properties.
+// Interpolation and inverse of poses: hand-computed cases and properties.
 #include "evolin_ros/geometry/pose.h"
 
 #include <gtest/gtest.h>
@@ -45,6 +45,16 @@ TEST(InterpolatePose, KeepsTheQuaternionAUnitOne) {
   for (double fraction = 0; fraction <= 1; fraction += 0.1) {
     EXPECT_NEAR(interpolate(a, b, fraction).rotation.norm(), 1, 1e-12);
   }
+}
+
+TEST(InversePose, UndoesTheMotion) {
+  const Pose pose = aboutZ(kPi / 2, {1, 2, 3});
+  const Pose back = inverse(pose);
+  // (1, 0, 0) turns to (0, 1, 0) and moves to (1, 3, 3).
+  const Eigen::Vector3d moved(1, 3, 3);
+  EXPECT_LT((back.rotation * moved + back.translation - Eigen::Vector3d::UnitX()).norm(), 1e-12);
+  EXPECT_LT((inverse(back).translation - pose.translation).norm(), 1e-12);
+  EXPECT_LT(inverse(back).rotation.angularDistance(pose.rotation), 1e-12);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ TEST(EvaluatorOptions, HaveTheDocumentedDefaults) {
   EXPECT_EQ(options.pass.evaluation.vectorized.distance_thresholds,
             (std::vector<double>{5, 10, 15}));
   EXPECT_EQ(options.pass.frame_step, 1);
+  EXPECT_FALSE(options.pass.matches_from_ids);
   EXPECT_EQ(options.pass.buffer, 1000U);
   EXPECT_EQ(options.output_dir, "");
   EXPECT_EQ(options.save_period, 5);
@@ -32,12 +33,14 @@ TEST(EvaluatorOptions, HaveTheDocumentedDefaults) {
 TEST(EvaluatorOptions, AreReadOneByOne) {
   const EvaluatorOptions options = read(
       "{protocol: paper, distance_thresholds: [2.5, 7], frame_step: 10, buffer: 50,"
+      " matches_from: ids,"
       " output_dir: /tmp/x, save_period: 0.5, idle_timeout: 0, drain_timeout: 9,"
       " warn_after: 0, record_parameters: [/detector, associator],"
       " input: {bag: a.bag, images: 3}}");
   EXPECT_EQ(options.pass.evaluation.vectorized.protocol, Protocol::kPaper);
   EXPECT_EQ(options.pass.evaluation.vectorized.distance_thresholds, (std::vector<double>{2.5, 7}));
   EXPECT_EQ(options.pass.frame_step, 10);
+  EXPECT_TRUE(options.pass.matches_from_ids);
   EXPECT_EQ(options.pass.buffer, 50U);
   EXPECT_EQ(options.output_dir, "/tmp/x");
   EXPECT_EQ(options.save_period, 0.5);
@@ -98,6 +101,7 @@ TEST(EvaluatorOptions, RefuseByNameWithValueAndRange) {
   expectRefusal("repeatability_score_thresholds: [high]", "repeatability_score_thresholds",
                 "'high'");
   expectRefusal("frame_step: 0", "frame_step", "'0'");
+  expectRefusal("matches_from: id", "matches_from", "topic, ids");
   expectRefusal("frame_step: 1.5", "frame_step", "'1.5'");
   expectRefusal("buffer: 1", "buffer", "from 2 to 1000000");
   expectRefusal("save_period: 0", "save_period", "0.01");

@@ -148,9 +148,13 @@ bool Manager::unload(const std::string& name) {
   return answer && answer->success != 0;
 }
 
+::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic) {
+  return waitFor("a listener to " + topic + " of " + node,
+                 [&] { return listenersOf(node, topic) > 0; });
+}
+
 ::testing::AssertionResult Manager::waitForListener(const std::string& topic) const {
-  return waitFor("a listener to " + space_ + "/" + topic,
-                 [&] { return listenersOf(space_ + "/manager", space_ + "/" + topic) > 0; });
+  return ::evolin::test::waitForListener(space_ + "/manager", space_ + "/" + topic);
 }
 
 }  // namespace evolin::test

@@ -37,6 +37,9 @@ class Process {
 /// To how many nodes `node` sends on `topic`, as the node itself says; 0 when it does not answer.
 std::size_t listenersOf(const std::string& node, const std::string& topic);
 
+/// Waits until what `node` publishes on `topic` reaches somebody; both are whole names.
+::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic);
+
 /// A nodelet manager in a process of its own, with four threads as manager.launch has it.
 class Manager {
  public:

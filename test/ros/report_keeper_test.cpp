@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Report reportOfPass(int pass) {
-  Report report = PassEvaluation().report(true);
+  const PassEvaluation pass_evaluation;
+  Report report = pass_evaluation.report(true);
   report.pass = pass;
   return report;
 }

@@ -180,7 +180,9 @@ class PackageLists(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         root = xml.etree.ElementTree.parse(os.path.join(SCRIPTS, "..", "package.xml")).getroot()
-        cls.keys = {element.text for element in root if element.tag.endswith("depend")}
+        # Those under a condition are for people who ask for them.
+        cls.keys = {element.text for element in root
+                    if element.tag.endswith("depend") and element.get("condition") is None}
         with open(os.path.join(SCRIPTS, "packages", "debian.txt")) as file:
             lines = [line.split("#")[0].strip() for line in file]
         cls.listed = [line for line in lines if line]
@@ -203,6 +205,15 @@ class PackageLists(unittest.TestCase):
 
     def test_nothing_is_listed_twice(self):
         self.assertEqual(sorted(set(self.listed)), sorted(self.listed))
+
+
+class Examples(unittest.TestCase):
+    def test_the_readme_shows_the_adapter_that_is_tested(self):
+        root = os.path.join(SCRIPTS, "..")
+        with open(os.path.join(root, "docs", "examples", "own_front_end_adapter.cpp")) as file:
+            code = file.read()
+        with open(os.path.join(root, "README.md")) as file:
+            self.assertIn("```cpp\n" + code + "```", file.read())
 
 
 if __name__ == "__main__":

@@ -38,29 +38,29 @@ class Fuzzer {
 
  private:
   void damageOnce(std::string* text) {
-    static const std::vector<std::string> pieces = {",",
-                                                    "\n",
-                                                    "\r\n",
-                                                    "\n\n",
-                                                    " ",
-                                                    "\t",
-                                                    "nan",
-                                                    "inf",
-                                                    "-",
-                                                    "1e999",
-                                                    "0x1p3",
-                                                    "1e",
-                                                    ".",
-                                                    "#",
-                                                    "\x80",
-                                                    "+-1",
-                                                    "--1",
-                                                    "1;2",
-                                                    "9223372036854775808",
-                                                    "1,5",
-                                                    std::string(1, '\0'),
-                                                    "\xEF\xBB\xBF",
-                                                    "\f"};
+    static const std::vector<std::string> kPieces = {",",
+                                                     "\n",
+                                                     "\r\n",
+                                                     "\n\n",
+                                                     " ",
+                                                     "\t",
+                                                     "nan",
+                                                     "inf",
+                                                     "-",
+                                                     "1e999",
+                                                     "0x1p3",
+                                                     "1e",
+                                                     ".",
+                                                     "#",
+                                                     "\x80",
+                                                     "+-1",
+                                                     "--1",
+                                                     "1;2",
+                                                     "9223372036854775808",
+                                                     "1,5",
+                                                     std::string(1, '\0'),
+                                                     "\xEF\xBB\xBF",
+                                                     "\f"};
     const std::size_t at = below(text->size() + 1);
     switch (below(8)) {
       case 0:
@@ -70,7 +70,7 @@ class Fuzzer {
         text->erase(at, 1 + below(8));
         break;
       case 2:
-        text->insert(at, pieces[below(pieces.size())]);
+        text->insert(at, kPieces[below(kPieces.size())]);
         break;
       case 3:
         text->insert(at, text->substr(below(text->size() + 1), below(40)));

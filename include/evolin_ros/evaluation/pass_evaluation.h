@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "evolin_ros/evaluation/id_matches.h"
 #include "evolin_ros/evaluation/inputs.h"
 #include "evolin_ros/evaluation/motion_evaluation.h"
 #include "evolin_ros/evaluation/report.h"
@@ -25,8 +26,11 @@ struct PassOptions {
   std::vector<double> auc_thresholds = {1, 3, 5, 10};  ///< of relative pose, degrees
   /// Frames whose lines are kept while a part is missing, and for the pairs to come.
   std::size_t buffer = 1000;
-  /// Frames between the two of a pair; only to say how many pairs were to be expected.
+  /// Frames between the two of a pair: of matches from ids; else only to say how many pairs were to
+  /// be expected.
   int frame_step = 1;
+  /// Matches are the lines of equal id in frames a step apart (IdMatcher), and no others are taken.
+  bool matches_from_ids = false;
 };
 
 /// What one message brought about.
@@ -72,6 +76,7 @@ class PassEvaluation {
   EvaluationUpdate addImage(Stamp stamp);
   EvaluationUpdate addLines(LineSet lines);
   EvaluationUpdate addGroundTruth(LineSet ground_truth);
+  /// Where matches come from ids, these count as skipped.
   EvaluationUpdate addMatches(MatchSet matches);
   EvaluationUpdate setCamera(const Camera& camera);
   EvaluationUpdate addDepth(Stamp stamp, DepthMap depth);
@@ -146,6 +151,9 @@ class PassEvaluation {
 
   Entry& entryAt(Stamp stamp);
   std::uint32_t placeOfLines(Stamp stamp);
+  EvaluationUpdate takeLines(LineSet lines);
+  EvaluationUpdate takeMatches(MatchSet matches);
+  void matchByIds(const LineSet& lines, IdMatcher::Result result, EvaluationUpdate* update);
   void setState(Entry* entry, FrameState state);
   void noteFrame(Stamp stamp, const Entry& entry);
   bool standsForAnother(Stamp image) const;
@@ -176,6 +184,7 @@ class PassEvaluation {
   void fillMotion(bool complete, Report* report) const;
   void fillRepeatability(const MotionEvaluation& motion, Report* report) const;
   void note(const std::string& text, EvaluationUpdate* update);
+  void noteOnce(const std::string& text, bool* told, EvaluationUpdate* update);
   void keepNote(const std::string& text);
   bool betweenDetectedLines(const MatchSet& matches) const;
 
@@ -203,6 +212,9 @@ class PassEvaluation {
   std::set<int> pose_steps_;
   std::size_t heatmaps_pending_ = 0;
   std::size_t poses_pending_ = 0;
+  std::optional<IdMatcher> id_matcher_;  ///< only where matches come from ids
+  bool foreign_matches_told_ = false;
+  bool missing_ids_told_ = false;
   PairCounts pair_counts_;
   CoverageCounts coverage_;
   std::size_t dropped_messages_ = 0;  ///< without an entry; in coverage_ all the same

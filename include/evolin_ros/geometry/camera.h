@@ -17,7 +17,7 @@ struct Camera {
   double cx = 0;
   double cy = 0;
   std::string distortion_model = "plumb_bob";  ///< plumb_bob, rational_polynomial or equidistant
-  std::vector<double> distortion;              ///< D; empty or all zero: none
+  std::vector<double> distortion;              ///< D; empty or (not for equidistant) all zero: none
   double depth_factor = 5000;  ///< stored depth units per metre of 16-bit depth images
 };
 

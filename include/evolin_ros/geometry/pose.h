@@ -16,4 +16,7 @@ struct Pose {
 /// At `fraction` 0 `a`, at 1 `b`: translation linear, rotation along the shorter arc (slerp).
 Pose interpolate(const Pose& a, const Pose& b, double fraction);
 
+/// The motion back; the rotation's norm is 1.
+Pose inverse(const Pose& pose);
+
 }  // namespace evolin

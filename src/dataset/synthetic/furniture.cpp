@@ -92,11 +92,11 @@ Palette makePalette(RandomStream* random) {
     return Material{pattern, jittered(base, 0.03, random), accent, random->bits(), 0};
   };
   Palette palette;
-  const Color feature = features[random->below(features.size())];
+  const Color& feature = features[random->below(features.size())];
   palette.wall = make(Pattern::kPlaster, walls[random->below(walls.size())], Color(0, 0, 0));
   palette.feature_wall = make(Pattern::kWallpaper, feature, feature * 1.25);
   palette.ceiling = make(Pattern::kPlaster, Color(0.82, 0.82, 0.80), Color(0, 0, 0));
-  const Color wood = woods[random->below(woods.size())];
+  const Color& wood = woods[random->below(woods.size())];
   palette.floor = make(Pattern::kPlanks, Color(0.50, 0.36, 0.23), Color(0.36, 0.24, 0.14));
   palette.trim = make(Pattern::kPlain, Color(0.84, 0.83, 0.79), Color(0, 0, 0));
   palette.wood = make(Pattern::kWood, wood, wood * 0.62);
@@ -119,14 +119,14 @@ void addDesk(const Placement& place, const Palette& palette, RandomStream* rando
              SceneBuilder* scene) {
   constexpr double kWidth = 1.55;
   constexpr double kDepth = 0.68;
-  constexpr double kTop_z = 0.72;
+  constexpr double kTopZ = 0.72;
   constexpr double kPlate = 0.03;
   scene->beginObject();
   const Material wood = varied(palette.wood, random);
-  scene->addBox(place, {0, -kDepth, kTop_z}, {kWidth, kDepth, kPlate}, wood);
-  addLegs(place, kWidth, kDepth, 0.03, 0.055, kTop_z, varied(palette.wood, random), scene);
+  scene->addBox(place, {0, -kDepth, kTopZ}, {kWidth, kDepth, kPlate}, wood);
+  addLegs(place, kWidth, kDepth, 0.03, 0.055, kTopZ, varied(palette.wood, random), scene);
   // A drawer block under the right half.
-  scene->addBox(place, {1.02, -kDepth + 0.12, 0.3}, {0.38, 0.5, kTop_z - 0.3},
+  scene->addBox(place, {1.02, -kDepth + 0.12, 0.3}, {0.38, 0.5, kTopZ - 0.3},
                 varied(palette.wood, random), kTop);
   for (const double z : {0.315, 0.515}) {
     scene->addBox(place, {1.035, -kDepth + 0.105, z}, {0.35, 0.015, 0.185},
@@ -134,7 +134,7 @@ void addDesk(const Placement& place, const Palette& palette, RandomStream* rando
     scene->addBox(place, {1.195, -kDepth + 0.08, z + 0.08}, {0.03, 0.025, 0.03}, palette.metal,
                   kBack);
   }
-  const double desk = kTop_z + kPlate;
+  const double desk = kTopZ + kPlate;
   scene->beginObject();  // a monitor
   const double turn = random->uniform(-0.25, 0.25);
   Placement monitor{place.point({random->uniform(0.6, 0.72), -0.26, desk}), place.yaw + turn};

@@ -117,8 +117,10 @@ Color Lighting::at(const Vector3& point, const Vector3& normal) const {
   for (const AreaLight& light : lights_) {
     double received = 0;
     for (int i = 0; i < kLightGrid * kLightGrid; ++i) {
-      const double a = (i % kLightGrid + 0.5) / kLightGrid;
-      const double b = (i / kLightGrid + 0.5) / kLightGrid;
+      const int column = i % kLightGrid;
+      const int row = i / kLightGrid;
+      const double a = (column + 0.5) / kLightGrid;
+      const double b = (row + 0.5) / kLightGrid;
       const Vector3 reach = light.origin + a * light.u + b * light.v - start;
       const double here = normal.dot(reach);
       const double there = -light.normal.dot(reach);

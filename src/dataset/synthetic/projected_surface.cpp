@@ -85,7 +85,7 @@ std::optional<ProjectedSurface> projectSurface(const Surface& surface, const Pat
     result.top = std::min(result.top, result.outline.back().y());
     result.bottom = std::max(result.bottom, result.outline.back().y());
   }
-  const auto overImage = [&view](const Vector3& direction) {
+  const auto over_image = [&view](const Vector3& direction) {
     const Camera& camera = view.camera;
     return Plane{direction.x() / camera.fx, direction.y() / camera.fy,
                  direction.z() - direction.x() * camera.cx / camera.fx -
@@ -93,9 +93,9 @@ std::optional<ProjectedSurface> projectSurface(const Surface& surface, const Pat
   };
   const Vector3 u = view.rotation * patch.u;
   const Vector3 v = view.rotation * patch.v;
-  result.inverse_depth = overImage(normal / offset);
-  result.u_ray = overImage(u);
-  result.v_ray = overImage(v);
+  result.inverse_depth = over_image(normal / offset);
+  result.u_ray = over_image(u);
+  result.v_ray = over_image(v);
   result.u_origin = u.dot(origin);
   result.v_origin = v.dot(origin);
   return result;

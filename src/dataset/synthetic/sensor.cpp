@@ -45,10 +45,11 @@ cv::Mat convolved(const cv::Mat& image, const std::vector<float>& weights, int s
     auto* out = result.ptr<cv::Vec3f>(y);
     for (int x = 0; x < image.cols; ++x) {
       cv::Vec3f sum(0, 0, 0);
-      for (int i = -reach; i <= reach; ++i) {
+      for (std::size_t tap = 0; tap < weights.size(); ++tap) {
+        const int i = static_cast<int>(tap) - reach;
         const int column = std::clamp(x + i * step_x, 0, image.cols - 1);
         const int row = std::clamp(y + i * step_y, 0, image.rows - 1);
-        sum += image.ptr<cv::Vec3f>(row)[column] * weights[static_cast<std::size_t>(i + reach)];
+        sum += image.ptr<cv::Vec3f>(row)[column] * weights[tap];
       }
       out[x] = sum;
     }

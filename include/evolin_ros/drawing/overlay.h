@@ -5,11 +5,11 @@
 
 #include "evolin_ros/geometry/line_segment.h"
 
-namespace evolin::ros_shell {
+namespace evolin {
 
 struct LineStyle {
   int width = 1;           ///< pixels
-  bool endpoints = false;  ///< a ring around each
+  bool endpoints = false;  ///< a dot on each
 };
 
 /// A BGR copy of `image` (CV_8UC1 or CV_8UC3) with the lines on it; a line that is not finite is
@@ -21,4 +21,4 @@ cv::Mat drawMatches(const cv::Mat& first_image, const LineSegments& first_lines,
                     const cv::Mat& second_image, const LineSegments& second_lines,
                     const LineMatches& matches);
 
-}  // namespace evolin::ros_shell
+}  // namespace evolin

@@ -1,0 +1,67 @@
+// Markers with stable names, so that a new frame's replace the last one's.
+#include "spatial_markers.h"
+
+namespace evolin::ros_shell {
+
+namespace {
+
+std_msgs::ColorRGBA color(float red, float green, float blue) {
+  std_msgs::ColorRGBA result;
+  result.r = red;
+  result.g = green;
+  result.b = blue;
+  result.a = 1;
+  return result;
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& point) {
+  geometry_msgs::Point result;
+  result.x = point.x();
+  result.y = point.y();
+  result.z = point.z();
+  return result;
+}
+
+}  // namespace
+
+std::vector<SegmentGroup> emptyGroups() {
+  return {{"true_positive", color(0.1F, 0.8F, 0.2F), {}},
+          {"false_positive", color(0.9F, 0.15F, 0.1F), {}},
+          {"missed", color(0.15F, 0.4F, 1.0F), {}},
+          {"lines", color(1, 1, 1), {}}};
+}
+
+visualization_msgs::MarkerArray markersOf(const std_msgs::Header& header,
+                                          const std::vector<SegmentGroup>& groups, double width) {
+  visualization_msgs::MarkerArray array;
+  for (const SegmentGroup& group : groups) {
+    visualization_msgs::Marker marker;
+    marker.header = header;
+    marker.ns = group.name;
+    marker.type = visualization_msgs::Marker::LINE_LIST;
+    marker.pose.orientation.w = 1;
+    // RViz complains of a list without points.
+    marker.action = group.segments.empty() ? visualization_msgs::Marker::DELETE
+                                           : visualization_msgs::Marker::ADD;
+    marker.scale.x = width;
+    marker.color = group.color;
+    for (const Segment3d& segment : group.segments) {
+      marker.points.push_back(toPoint(segment.p1));
+      marker.points.push_back(toPoint(segment.p2));
+    }
+    array.markers.push_back(marker);
+  }
+  return array;
+}
+
+visualization_msgs::MarkerArray noMarkers(const std_msgs::Header& header) {
+  visualization_msgs::MarkerArray array;
+  visualization_msgs::Marker marker;
+  marker.header = header;
+  marker.pose.orientation.w = 1;
+  marker.action = visualization_msgs::Marker::DELETEALL;
+  array.markers.push_back(marker);
+  return array;
+}
+
+}  // namespace evolin::ros_shell
