@@ -88,6 +88,19 @@ void MotionEvaluation::removeImage(Stamp stamp) {
   }
 }
 
+void MotionEvaluation::forgetFrom(Stamp boundary) {
+  for (auto node = nodes_.lower_bound(boundary); node != nodes_.end();) {
+    const bool has_lines = node->second.detected.state != State::kAbsent;
+    if (!has_lines) {
+      unresolved_.erase(node->first);
+    }
+    node = has_lines ? std::next(node) : nodes_.erase(node);
+  }
+  for (auto pair = pending_.begin(); pair != pending_.end();) {
+    pair = pair->first.second >= boundary ? pending_.erase(pair) : std::next(pair);
+  }
+}
+
 MotionUpdate MotionEvaluation::addLines(const LineSet& lines) {
   MotionUpdate update;
   lines_source_ = lines.source;

@@ -57,6 +57,7 @@ void EvaluationUpdate::append(EvaluationUpdate other) {
   appendTo(&notes, std::move(other.notes));
   appendTo(&warnings, std::move(other.warnings));
   new_pass = new_pass || other.new_pass;
+  changed_settings += other.changed_settings;
   image_offset = image_offset ? image_offset : other.image_offset;
 }
 

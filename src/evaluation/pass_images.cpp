@@ -123,12 +123,12 @@ void PassEvaluation::settleImages(EvaluationUpdate* update) {
 
 /// Distance in time to the nearest frame, whatever its own image; there is one.
 Stamp PassEvaluation::offsetOf(Stamp image) const {
-  const auto isFrame = [](const auto& entry) {
+  const auto is_frame = [](const auto& entry) {
     return entry.second.record.lines || entry.second.record.ground_truth;
   };
   const auto here = entries_.lower_bound(image);
-  const auto after = std::find_if(here, entries_.end(), isFrame);
-  const auto before = std::find_if(std::make_reverse_iterator(here), entries_.rend(), isFrame);
+  const auto after = std::find_if(here, entries_.end(), is_frame);
+  const auto before = std::find_if(std::make_reverse_iterator(here), entries_.rend(), is_frame);
   Stamp offset = std::numeric_limits<Stamp>::max();
   if (after != entries_.end()) {
     offset = after->first - image;

@@ -124,7 +124,7 @@ void addHeatmap(const Report& report, Resampling* resampling) {
 }
 
 void addAssociations(const Report& report, Resampling* resampling) {
-  const auto namesOf = [](const char* family) {
+  const auto names_of = [](const char* family) {
     return std::vector<FigureInterval>{named(family, "precision"), named(family, "recall"),
                                        named(family, "f_score")};
   };
@@ -132,13 +132,13 @@ void addAssociations(const Report& report, Resampling* resampling) {
   for (const PairRecord& record : report.pair_records) {
     pairs.push_back(record.counts);
   }
-  resampling->add(pairs.size(), namesOf("association"),
+  resampling->add(pairs.size(), names_of("association"),
                   [&](const std::vector<std::uint32_t>& weights) {
                     std::vector<double> figures;
                     appendRatios(evolin::weightedSum(pairs, weights), &figures);
                     return figures;
                   });
-  resampling->add(report.detected_pair_records.size(), namesOf("association_detected"),
+  resampling->add(report.detected_pair_records.size(), names_of("association_detected"),
                   [&](const std::vector<std::uint32_t>& weights) {
                     std::vector<double> figures;
                     appendRatios(weightedSum(report.detected_pair_records, weights), &figures);

@@ -12,7 +12,7 @@ namespace evolin {
 namespace {
 
 /// Results that a front-end of several threads may give out before the first one.
-constexpr std::size_t kMostSwapped = 8;
+constexpr int kMostSwapped = 8;
 
 /// Stamps of an input that are known again when they come a second time.
 constexpr std::size_t kLeastRemembered = 1000;
@@ -37,7 +37,7 @@ std::optional<int> StreamEvaluator::passOf(Input input, Key key) {
   Follower& follower = followers_[input];
   if (follower.pass == 0) {
     follower.pass = newest_;
-  } else if (key == follower.last || key == *follower.received.rbegin()) {
+  } else if (isRepeated(follower, key)) {
     return std::nullopt;
   } else {
     const bool seen_before = follower.received.count(key) != 0;
@@ -45,6 +45,10 @@ std::optional<int> StreamEvaluator::passOf(Input input, Key key) {
     if (seen_before || (before_all && !startedOutOfOrder(input, key.first))) {
       // An input that slept through a whole pass must not lag behind for ever.
       follower.pass = std::max(follower.pass + 1, newest_ - 1);
+      // Nor does a jump back lead into a pass that continues the one before it.
+      while (follower.pass < newest_ && boundaries_.count(follower.pass) != 0) {
+        ++follower.pass;
+      }
       follower.received.clear();
     }
   }
@@ -59,7 +63,7 @@ std::optional<int> StreamEvaluator::passOf(Input input, Key key) {
 
 bool StreamEvaluator::startedOutOfOrder(Input input, Stamp stamp) const {
   const Follower& follower = followers_[input];
-  if (follower.received.size() > kMostSwapped) {
+  if (follower.received.size() > static_cast<std::size_t>(kMostSwapped)) {
     return false;
   }
   return std::any_of(followers_.begin(), followers_.end(), [&](const Follower& other) {
@@ -75,11 +79,23 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& 
     return nullptr;
   }
   Follower& follower = followers_[input];
+  if (changesSettings(input, key, source)) {
+    beginSettings(input, key, source, update);
+  }
+  crossBoundaries(input, key);
+  if (isBetweenSettings(input, key, source)) {
+    drop(input, kBetweenSettings,
+         "a message of stamp " + secondsText(key.first) +
+             ", on the other side of a change of settings,",
+         update);
+    return nullptr;
+  }
   const int pass_before = follower.pass;
   const std::optional<int> pass = passOf(input, key);
   const std::string sources = sourcesText(pass_before == 0 ? source : follower.source, source);
   follower.source = source;
   if (!pass) {
+    follower.shared = source == follower.taken_source ? follower.shared : kMostSwapped;
     drop(input, kRepeated, "a second message of stamp " + secondsText(key.first) + sources, update);
     return nullptr;
   }
@@ -88,20 +104,14 @@ PassEvaluation* StreamEvaluator::enter(Input input, Key key, const std::string& 
                                "; every jump begins a pass of its own");
   }
   if (*pass > newest_) {
-    newest_ = *pass;
-    noted_.clear();
-    update->new_pass = true;
-    previous_changed_ = true;
-    const auto opened = passes_.emplace(newest_, PassEvaluation(options_)).first;
-    if (camera_) {
-      update->append(marked(opened->second.setCamera(*camera_), newest_));
-    }
-    while (passes_.begin()->first < newest_ - 1) {
-      passes_.begin()->second.skipPending();
-      released_.emplace(passes_.begin()->first, std::move(passes_.begin()->second));
-      passes_.erase(passes_.begin());
-    }
+    openPass(update);
   }
+  if (source == follower.taken_source) {
+    follower.shared = std::max(follower.shared - 1, 0);
+  } else if (pass_before != 0 && *pass != pass_before) {
+    follower.shared = kMostSwapped;
+  }
+  follower.taken_source = source;
   const auto found = passes_.find(*pass);
   if (found == passes_.end()) {
     drop(input, kPassClosed,
@@ -155,19 +165,29 @@ EvaluationUpdate StreamEvaluator::marked(EvaluationUpdate update, int pass) cons
   return update;
 }
 
-template <class Add>
 EvaluationUpdate StreamEvaluator::add(Input input, Key key, const std::string& source,
-                                      const Add& add) {
+                                      const AddTo& add) {
   EvaluationUpdate update;
-  if (PassEvaluation* pass = enter(input, key, source, &update)) {
-    update.append(marked(add(pass), followers_[input].pass));
-    previous_changed_ = previous_changed_ || followers_[input].pass != newest_;
+  if (paused_ && input == kImage) {
+    return update;
   }
+  PassEvaluation* const pass = enter(input, key, source, &update);
+  if (pass == nullptr) {
+    return update;
+  }
+  if (paused_ && input != kDepth && input != kPose) {
+    passOver(input, key, pass);
+  } else {
+    update.append(marked(add(pass), followers_[input].pass));
+    remember(input, key, add);
+  }
+  previous_changed_ = previous_changed_ || followers_[input].pass != newest_;
   return update;
 }
 
 EvaluationUpdate StreamEvaluator::addImage(Stamp stamp) {
-  return add(kImage, {stamp, 0}, "", [&](PassEvaluation* pass) { return pass->addImage(stamp); });
+  return add(kImage, {stamp, 0}, "",
+             [stamp](PassEvaluation* pass) { return pass->addImage(stamp); });
 }
 
 EvaluationUpdate StreamEvaluator::addLines(LineSet lines) {
@@ -175,14 +195,14 @@ EvaluationUpdate StreamEvaluator::addLines(LineSet lines) {
              [&](PassEvaluation* pass) { return pass->addLines(std::move(lines)); });
 }
 
-EvaluationUpdate StreamEvaluator::addGroundTruth(LineSet ground_truth) {
+EvaluationUpdate StreamEvaluator::addGroundTruth(const LineSet& ground_truth) {
   return add(kGroundTruth, {ground_truth.stamp, 0}, ground_truth.source,
-             [&](PassEvaluation* pass) { return pass->addGroundTruth(std::move(ground_truth)); });
+             [ground_truth](PassEvaluation* pass) { return pass->addGroundTruth(ground_truth); });
 }
 
-EvaluationUpdate StreamEvaluator::addMatches(MatchSet matches) {
+EvaluationUpdate StreamEvaluator::addMatches(const MatchSet& matches) {
   return add(kMatches, {matches.stamp, matches.first_stamp}, matches.source,
-             [&](PassEvaluation* pass) { return pass->addMatches(std::move(matches)); });
+             [matches](PassEvaluation* pass) { return pass->addMatches(matches); });
 }
 
 EvaluationUpdate StreamEvaluator::setCamera(const Camera& camera) {
@@ -194,13 +214,13 @@ EvaluationUpdate StreamEvaluator::setCamera(const Camera& camera) {
   return update;
 }
 
-EvaluationUpdate StreamEvaluator::addDepth(Stamp stamp, DepthMap depth) {
+EvaluationUpdate StreamEvaluator::addDepth(Stamp stamp, const DepthMap& depth) {
   return add(kDepth, {stamp, 0}, "",
-             [&](PassEvaluation* pass) { return pass->addDepth(stamp, std::move(depth)); });
+             [stamp, depth](PassEvaluation* pass) { return pass->addDepth(stamp, depth); });
 }
 
 EvaluationUpdate StreamEvaluator::addPose(const StampedPose& pose) {
-  return add(kPose, {pose.stamp, 0}, "", [&](PassEvaluation* to) { return to->addPose(pose); });
+  return add(kPose, {pose.stamp, 0}, "", [pose](PassEvaluation* to) { return to->addPose(pose); });
 }
 
 PassEvaluation* StreamEvaluator::passOf(std::uint64_t generation, int pass) {
@@ -268,8 +288,10 @@ bool StreamEvaluator::waiting() const { return current().waiting() || hasPending
 void StreamEvaluator::reset() {
   const std::uint64_t generation = generation_ + 1;
   const std::optional<Camera> camera = camera_;
+  const bool paused = paused_;
   *this = StreamEvaluator(options_);
   generation_ = generation;
+  paused_ = paused;
   if (camera) {
     setCamera(*camera);
   }

@@ -86,6 +86,27 @@ void EvaluationSession::publishSums(bool now) {
   next_sums_ = end + (end - begin) * kShare;
 }
 
+/// Parameters of a method may be set for its next settings while a pass is of the old ones; what
+/// stands there when a pass begins is what it is of.
+void EvaluationSession::keepParameters(int pass) {
+  {
+    const std::lock_guard<std::mutex> lock(parameters_mutex_);
+    if (options_.record_parameters.empty() || parameters_.count(pass) != 0) {
+      return;
+    }
+  }
+  std::map<std::string, std::string> texts;
+  for (const std::string& name : options_.record_parameters) {
+    const std::string resolved = handle_.resolveName(name);
+    texts["parameters of " + resolved] = parametersAsJson(resolved);
+  }
+  const std::lock_guard<std::mutex> lock(parameters_mutex_);
+  parameters_[pass] = std::move(texts);
+  // The session writes the two newest passes, and those that wait to be written.
+  constexpr int kKept = 100;
+  parameters_.erase(parameters_.begin(), parameters_.lower_bound(pass - kKept));
+}
+
 /// What a report must carry to be understood later.
 void EvaluationSession::addProvenance(Report* report) const {
   int images = 0;
@@ -93,6 +114,14 @@ void EvaluationSession::addProvenance(Report* report) const {
     report->input_images = static_cast<std::size_t>(images);
   }
   report->provenance["parameters"] = parametersAsJson(private_handle_.getNamespace());
+  {
+    const std::lock_guard<std::mutex> lock(parameters_mutex_);
+    const auto kept = parameters_.find(report->pass);
+    if (kept != parameters_.end()) {
+      report->provenance.insert(kept->second.begin(), kept->second.end());
+      return;
+    }
+  }
   for (const std::string& name : options_.record_parameters) {
     const std::string resolved = handle_.resolveName(name);
     report->provenance["parameters of " + resolved] = parametersAsJson(resolved);
@@ -176,6 +205,28 @@ std::filesystem::path EvaluationSession::save(bool complete, bool confidence) {
   const std::lock_guard<std::mutex> lock(mutex_);
   saved_inputs_ = inputs;
   return file;
+}
+
+std::string EvaluationSession::reportAsJson() {
+  std::optional<std::pair<int, PassEvaluation>> newest;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    newest.emplace(evaluator_.pass(), evaluator_.current());
+  }
+  Report report = newest->second.report(false);
+  report.pass = newest->first;
+  addProvenance(&report);
+  return toJson(report);
+}
+
+void EvaluationSession::pause(bool paused) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  evaluator_.pause(paused);
+}
+
+std::pair<CoverageCounts, bool> EvaluationSession::coverage() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {evaluator_.coverage(), evaluator_.isPaused()};
 }
 
 void EvaluationSession::saveChanges() {
@@ -285,6 +336,10 @@ void EvaluationSession::reset() {
     longest_gap_ = 0;
     last_header_ = {};
     published_inputs_.reset();
+  }
+  {
+    const std::lock_guard<std::mutex> lock(parameters_mutex_);
+    parameters_.clear();
   }
   // What is latched is of figures that are forgotten.
   publishSums(true);

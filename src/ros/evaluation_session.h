@@ -9,6 +9,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -36,7 +37,8 @@ class EvaluationSession {
   struct Told {
     std::vector<std::string> notes;
     std::vector<std::string> warnings;
-    std::optional<int> finished_pass;   ///< time jumped back: this pass is over
+    std::optional<int> finished_pass;   ///< time jumped back or settings changed: it is over
+    std::string changed_settings;       ///< as EvaluationUpdate's
     std::optional<Stamp> image_offset;  ///< as EvaluationUpdate's
   };
 
@@ -76,6 +78,18 @@ class EvaluationSession {
   /// figures get their intervals, which may take seconds (the evaluation goes on meanwhile).
   std::filesystem::path save(bool complete, bool confidence);
 
+  /// The report as it would be written now, as JSON.
+  std::string reportAsJson();
+
+  /// While paused, what comes is counted as skipped.
+  void pause(bool paused);
+
+  /// Of the newest pass, and whether it is paused.
+  std::pair<CoverageCounts, bool> coverage() const;
+
+  std::size_t tasksWaiting() const { return worker_.waiting(); }
+  std::size_t taskCapacity() const { return worker_.capacity(); }
+
   /// A snapshot where something new came in; errors go to the log.
   void saveChanges();
 
@@ -96,6 +110,7 @@ class EvaluationSession {
   Told takeIn(const std_msgs::Header* header, const Add& add) {
     EvaluationUpdate update;
     std::optional<int> finished;
+    int pass = 0;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       noteInput(header != nullptr);
@@ -111,8 +126,13 @@ class EvaluationSession {
         last_header_ = *header;
       }
       metrics_.publish(update, last_header_);
+      pass = evaluator_.pass();
     }
-    return {std::move(update.notes), std::move(update.warnings), finished, update.image_offset};
+    if (header != nullptr) {
+      keepParameters(pass);
+    }
+    return {std::move(update.notes), std::move(update.warnings), finished,
+            std::move(update.changed_settings), update.image_offset};
   }
 
   void noteInput(bool of_frame);
@@ -121,6 +141,7 @@ class EvaluationSession {
   bool waitForTheRest(const std::function<bool()>& stopped,
                       const std::function<bool()>& first_match_due);
   void giveUpTasks();
+  void keepParameters(int pass);
   void addProvenance(Report* report) const;
   std::filesystem::path write(Report report);
   void writeFinished();
@@ -134,7 +155,10 @@ class EvaluationSession {
   WallThrottle errors_;
   std::mutex save_mutex_;  ///< taken before mutex_
   std::mutex sums_mutex_;  ///< taken before mutex_
-  std::mutex mutex_;       ///< guards what follows, up to the blank line
+  mutable std::mutex parameters_mutex_;
+  /// Of the methods, by pass, as they were when it began: guarded by parameters_mutex_.
+  std::map<int, std::map<std::string, std::string>> parameters_;
+  mutable std::mutex mutex_;  ///< guards what follows, up to the blank line
   StreamEvaluator evaluator_;
   std::deque<std::pair<int, PassEvaluation>> released_;  ///< passes that wait to be written
   bool previous_unwritten_ = false;

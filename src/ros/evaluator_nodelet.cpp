@@ -2,10 +2,12 @@
 // report on disk out.
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
+#include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
@@ -14,6 +16,7 @@
 #include "evaluation_session.h"
 #include "evaluator_options.h"
 #include "evolin_ros/base/error.h"
+#include "health.h"
 #include "motion_inputs.h"
 #include "node_parameters.h"
 #include "safe_nodelet.h"
@@ -30,6 +33,9 @@ class EvaluatorNodelet : public SafeNodelet {
   ~EvaluatorNodelet() override {
     stopping_ = true;
     service_spinner_.stop();
+    if (health_) {
+      health_->stop();
+    }
   }
   EvaluatorNodelet(const EvaluatorNodelet&) = delete;
   EvaluatorNodelet& operator=(const EvaluatorNodelet&) = delete;
@@ -55,11 +61,38 @@ class EvaluatorNodelet : public SafeNodelet {
                    keeper.folder().c_str());
     }
     watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), options_.warn_after);
+    watchHealth();
     subscribe();
     offerServices();
     NODELET_INFO("protocol %s, report in %s",
                  toString(options_.pass.evaluation.vectorized.protocol).c_str(),
                  keeper.folder().c_str());
+  }
+
+  void watchHealth() {
+    health_ = std::make_unique<Health>(getName(), options_.health);
+    health_->setQueue([this] {
+      return Health::Fill{session_->tasksWaiting(), session_->taskCapacity()};
+    });
+    health_->setCoverage([this] { return coverage(); });
+    health_->start(getMTNodeHandle(), getPrivateNodeHandle());
+  }
+
+  Health::Coverage coverage() const {
+    const auto [counts, paused] = session_->coverage();
+    return {counts.seen,
+            counts.evaluated,
+            counts.waiting,
+            paused ? "paused" : "",
+            {{"unmatched", counts.unmatched},
+             {"dropped", counts.dropped},
+             {"no_ground_truth", counts.no_ground_truth},
+             {"bad_ground_truth", counts.bad_ground_truth},
+             {"skipped", counts.skipped},
+             {"no_depth", counts.no_depth},
+             {"no_pose", counts.no_pose},
+             {"heatmap_skipped", counts.heatmap_skipped},
+             {"pose_skipped", counts.pose_skipped}}};
   }
 
   /// All inputs share the single-threaded queue, so that each stays in its own order.
@@ -112,6 +145,9 @@ class EvaluatorNodelet : public SafeNodelet {
         [this](const ros::WallTimerEvent&) { session_->publishSums(false); });
     handle.setCallbackQueue(&service_queue_);
     save_ = handle.advertiseService(services::kSaveReport, &EvaluatorNodelet::onSave, this);
+    pause_ = handle.advertiseService(services::kPause, &EvaluatorNodelet::onPause, this);
+    get_report_ =
+        handle.advertiseService(services::kGetReport, &EvaluatorNodelet::onGetReport, this);
     reset_ = handle.advertiseService(services::kReset, &EvaluatorNodelet::onReset, this);
     // Last: whoever sees ~finish may start to send.
     finish_ = handle.advertiseService(services::kFinish, &EvaluatorNodelet::onFinish, this);
@@ -119,7 +155,9 @@ class EvaluatorNodelet : public SafeNodelet {
   }
 
   void expect(const std::string& topic, const std::string& type, const std::string& hint) {
-    watchdog_->expect(getNodeHandle().resolveName(topic), type, hint);
+    const std::string name = getNodeHandle().resolveName(topic);
+    watchdog_->expect(name, type, hint);
+    health_->expect(name);
   }
 
   void onLines(const evolin_ros::LineArrayConstPtr& message) {
@@ -184,11 +222,16 @@ class EvaluatorNodelet : public SafeNodelet {
     const std::string name = getNodeHandle().resolveName(topic);
     const unsigned publishers = subscriber.getNumPublishers();
     watchdog_->heard(name);
+    health_->heard(name);
+    const ros::WallTime begin = ros::WallTime::now();
     const EvaluationSession::Told told = session_->take(header, add);
+    const double seconds = (ros::WallTime::now() - begin).toSec();
+    health_->finished(seconds, seconds);
     std::string described = name;
     described.append(" (publishers: ").append(std::to_string(publishers)).append(")");
     tell(described, told);
-    if (told.finished_pass && publishers > 1 && crowded_.insert(name).second) {
+    if (told.finished_pass && told.changed_settings.empty() && publishers > 1 &&
+        crowded_.insert(name).second) {
       NODELET_WARN(
           "%s has %u publishers and time jumped back to %.6f: where their stamps interleave, "
           "every jump begins a pass; keep one of them",
@@ -212,7 +255,10 @@ class EvaluatorNodelet : public SafeNodelet {
           "all the same",
           getNodeHandle().resolveName(topics::kCameraInfo).c_str(), toSeconds(*told.image_offset));
     }
-    if (told.finished_pass) {
+    if (told.finished_pass && !told.changed_settings.empty()) {
+      NODELET_INFO("%s: %s: pass %d begins", topic.c_str(), told.changed_settings.c_str(),
+                   *told.finished_pass + 1);
+    } else if (told.finished_pass) {
       if (motion_inputs_) {
         motion_inputs_->startPass();
       }
@@ -222,6 +268,19 @@ class EvaluatorNodelet : public SafeNodelet {
 
   bool onSave(Trigger::Request& /*request*/, Trigger::Response& response) {
     return answer(&response, [this] { return session_->save(false, true); });
+  }
+
+  bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+    session_->pause(request.data != 0);
+    response.success = 1;
+    response.message =
+        request.data != 0 ? "paused: what comes is counted as skipped" : "the evaluation goes on";
+    NODELET_INFO("%s", response.message.c_str());
+    return true;
+  }
+
+  bool onGetReport(Trigger::Request& /*request*/, Trigger::Response& response) {
+    return answer(&response, [this] { return session_->reportAsJson(); });
   }
 
   bool onFinish(Trigger::Request& /*request*/, Trigger::Response& response) {
@@ -244,10 +303,13 @@ class EvaluatorNodelet : public SafeNodelet {
     return true;
   }
 
+  static std::string textOf(const std::filesystem::path& path) { return path.string(); }
+  static std::string textOf(const std::string& text) { return text; }
+
   template <class Save>
   bool answer(Trigger::Response* response, const Save& save_now) {
     try {
-      response->message = save_now().string();
+      response->message = textOf(save_now());
       response->success = true;
     } catch (const std::exception& error) {
       response->message = error.what();
@@ -268,6 +330,7 @@ class EvaluatorNodelet : public SafeNodelet {
   WallThrottle warnings_;
   std::unique_ptr<EvaluationSession> session_;
   std::unique_ptr<TopicWatchdog> watchdog_;
+  std::unique_ptr<Health> health_;
   std::unique_ptr<MotionInputs> motion_inputs_;
   ros::Subscriber lines_;
   ros::Subscriber ground_truth_;
@@ -277,6 +340,8 @@ class EvaluatorNodelet : public SafeNodelet {
   ros::WallTimer idle_timer_;
   ros::WallTimer publish_timer_;
   ros::ServiceServer save_;
+  ros::ServiceServer pause_;
+  ros::ServiceServer get_report_;
   ros::ServiceServer reset_;
   ros::ServiceServer finish_;
 };

@@ -71,6 +71,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   reader.read("bootstrap_block", &options.bootstrap.block_length, 0, 1000000000);
   reader.read("bootstrap_seed", &bootstrap_seed, 0, std::numeric_limits<int>::max());
   reader.read("record_parameters", &options.record_parameters);
+  options.health = readHealthLimits(&reader, owner);
   // Set by the player: name, size and hash of the bag, for the report's provenance.
   reader.readMap("input");
   reader.finish();

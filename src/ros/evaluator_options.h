@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evolin_ros/evaluation/pass_evaluation.h"
+#include "health.h"
 
 namespace evolin::ros_shell {
 
@@ -25,6 +26,7 @@ struct EvaluatorOptions {
   double drain_timeout =
       5;  ///< s of wall time without input after which ~finish stops waiting for what is due
   double warn_after = 3;  ///< s without an expected message until the warning; 0: never
+  HealthLimits health;
   std::vector<std::string>
       record_parameters;  ///< namespaces whose parameters the report shall carry
 };

@@ -10,6 +10,7 @@
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
 #include "evolin_ros/dataset/annotation_folder.h"
+#include "health.h"
 #include "node_parameters.h"
 #include "safe_nodelet.h"
 #include "topic_watchdog.h"
@@ -19,6 +20,18 @@
 namespace evolin::ros_shell {
 
 class GroundTruthNodelet : public SafeNodelet {
+ public:
+  GroundTruthNodelet() = default;
+  ~GroundTruthNodelet() override {
+    if (health_) {
+      health_->stop();
+    }
+  }
+  GroundTruthNodelet(const GroundTruthNodelet&) = delete;
+  GroundTruthNodelet& operator=(const GroundTruthNodelet&) = delete;
+  GroundTruthNodelet(GroundTruthNodelet&&) = delete;
+  GroundTruthNodelet& operator=(GroundTruthNodelet&&) = delete;
+
  private:
   void start() override {
     ros::NodeHandle& handle = getNodeHandle();
@@ -43,6 +56,8 @@ class GroundTruthNodelet : public SafeNodelet {
     watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), warn_after_);
     watchdog_->expect(handle.resolveName(topics::kImage), "sensor_msgs/Image",
                       "Remap 'image' to the camera's topic.");
+    health_->expect(handle.resolveName(topics::kImage));
+    health_->start(getMTNodeHandle(), getPrivateNodeHandle());
     lines_ = handle.advertise<evolin_ros::LineArray>(topics::kGroundTruthLines, kResultQueue);
     image_transport_ = std::make_unique<image_transport::ImageTransport>(handle);
     image_ = image_transport_->subscribe(
@@ -61,6 +76,7 @@ class GroundTruthNodelet : public SafeNodelet {
     reader.read("same_rows", &same_rows);
     reader.read("image_transport", &transport_);
     reader.read("warn_after", &warn_after_, 0, 1e6);
+    health_ = std::make_unique<Health>(getName(), readHealthLimits(&reader, getName()));
     reader.finish();
     if (folder.empty()) {
       throw ConfigError(getName(), "folder", "not set; expected a folder of line files");
@@ -69,9 +85,12 @@ class GroundTruthNodelet : public SafeNodelet {
   }
 
   void onImage(const sensor_msgs::ImageConstPtr& message) {
+    const ros::WallTime begin = ros::WallTime::now();
     watchdog_->heard(getNodeHandle().resolveName(topics::kImage));
+    health_->heard(getNodeHandle().resolveName(topics::kImage));
     std::optional<LineSegments> lines = folder_->at(fromRos(message->header.stamp));
     if (!lines) {
+      health_->dropped("without an entry");
       if (warnings_.due()) {
         NODELET_WARN(
             "no entry within 0.001 s of the image at %.6f (stamps from %s to %s): "
@@ -90,6 +109,8 @@ class GroundTruthNodelet : public SafeNodelet {
     const auto array = boost::make_shared<evolin_ros::LineArray>(toMessage(set));
     array->header = message->header;
     lines_.publish(array);
+    const double seconds = (ros::WallTime::now() - begin).toSec();
+    health_->finished(seconds, seconds);
   }
 
   std::unique_ptr<AnnotationFolder> folder_;
@@ -98,6 +119,7 @@ class GroundTruthNodelet : public SafeNodelet {
   double warn_after_ = 3;
   WallThrottle warnings_;
   std::unique_ptr<TopicWatchdog> watchdog_;
+  std::unique_ptr<Health> health_;
   std::unique_ptr<image_transport::ImageTransport> image_transport_;
   image_transport::Subscriber image_;
   ros::Publisher lines_;

@@ -73,6 +73,7 @@ HealthLimits readHealthLimits(ParameterReader* reader, const std::string& owner)
   read("drops", &limits.drops, 1);
   read("queue", &limits.queue, kMost);
   read("coverage", &limits.coverage, 1);
+  levels.read("in_flight", &limits.in_flight, 0, 1000000);
   levels.finish();
   return limits;
 }
@@ -257,15 +258,18 @@ void Health::tellCoverage(DiagnosticStatusWrapper& status) {
   for (const auto& [reason, count] : coverage.reasons) {
     status.add(reason, count);
   }
-  const std::size_t settled = coverage.seen - std::min(coverage.waiting, coverage.seen);
+  const std::size_t in_flight =
+      std::min(coverage.waiting, static_cast<std::size_t>(limits_.in_flight));
+  const std::size_t settled = coverage.seen - std::min(in_flight, coverage.seen);
   if (settled == 0) {
-    status.summary(DiagnosticStatus::OK, "no frame is settled yet");
+    status.summary(DiagnosticStatus::OK, "no frame is due yet");
     return;
   }
   const double share = static_cast<double>(coverage.evaluated) / static_cast<double>(settled);
-  status.summary(
-      levelBelow(share, limits_.coverage),
-      std::to_string(coverage.evaluated) + " of " + std::to_string(settled) + " frames evaluated");
+  status.summary(levelBelow(share, limits_.coverage),
+                 std::to_string(coverage.evaluated) + " of " + std::to_string(settled) +
+                     " frames that are due were evaluated" +
+                     (coverage.remark.empty() ? "" : "; " + coverage.remark));
 }
 
 }  // namespace evolin::ros_shell

@@ -30,7 +30,8 @@ struct HealthLimits {
   Level latency = {0, 0};        ///< s from an input's arrival to its result, 95 % of the results
   Level drops = {0.001, 0.1};    ///< share of the inputs of the last 10 s
   Level queue = {30, 300};       ///< inputs that wait
-  Level coverage = {0.99, 0.5};  ///< share of the frames that are settled; less is worse
+  Level coverage = {0.99, 0.5};  ///< share of the frames that were evaluated; less is worse
+  int in_flight = 30;  ///< frames that may wait for a part without being counted in that share
 };
 
 /// Reads ~diagnostic_period and the map ~diagnostics with the keys silence_warn, silence_error,
@@ -50,6 +51,7 @@ class Health {
     std::size_t seen = 0;
     std::size_t evaluated = 0;
     std::size_t waiting = 0;
+    std::string remark;  ///< "paused" or the like
     std::vector<std::pair<std::string, std::size_t>> reasons;
   };
 

@@ -226,9 +226,9 @@ class LineAssociatorNodelet : public SafeNodelet {
     const LineSet set = fromMessage(*pair.lines);
     // Indices of two sources must never meet in one match, nor frames of two passes, nor images
     // of two cameras.
-    if (!window_.empty() &&
-        (window_source_ != set.source || set.stamp <= window_.back()->frame.stamp ||
-         window_rectify_ != settings->options.rectify)) {
+    if (!window_.empty() && (pair.begins_pass || window_source_ != set.source ||
+                             set.stamp <= window_.back()->frame.stamp ||
+                             window_rectify_ != settings->options.rectify)) {
       window_.clear();
     }
     window_rectify_ = settings->options.rectify;

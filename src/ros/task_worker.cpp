@@ -47,6 +47,11 @@ std::vector<EvaluationTask> TaskWorker::cancel() {
   return waiting;
 }
 
+std::size_t TaskWorker::waiting() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return tasks_.size();
+}
+
 void TaskWorker::work() {
   while (true) {
     EvaluationTask task;

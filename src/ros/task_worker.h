@@ -30,6 +30,11 @@ class TaskWorker {
   /// False, and the task is not taken, when the queue is full.
   bool add(EvaluationTask task);
 
+  /// Tasks that wait.
+  std::size_t waiting() const;
+
+  std::size_t capacity() const { return capacity_; }
+
   /// Takes the tasks that wait, which will not be run, and breaks the one that runs off: its
   /// result, handed to `done` as any other's before this returns, says so. Not from `done` itself,
   /// nor under a lock that it takes.
@@ -42,7 +47,7 @@ class TaskWorker {
   TaskRunner runner_;
   std::size_t capacity_;
   Done done_;
-  std::mutex mutex_;  ///< guards what follows, up to the thread
+  mutable std::mutex mutex_;  ///< guards what follows, up to the thread
   std::condition_variable changed_;
   std::deque<EvaluationTask> tasks_;
   bool running_ = false;

@@ -42,6 +42,8 @@ constexpr char kReload[] = "reload";
 constexpr char kSaveReport[] = "save_report";
 constexpr char kReset[] = "reset";
 constexpr char kFinish[] = "finish";
+constexpr char kPause[] = "pause";
+constexpr char kGetReport[] = "get_report";
 }  // namespace services
 
 /// What evolin bag writes: the topics of TUM's own bags and the ground truth.

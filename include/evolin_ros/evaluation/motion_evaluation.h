@@ -94,6 +94,8 @@ class MotionEvaluation {
   /// What addImage() told of was no image. One with lines or ground truth stays, and so does the
   /// place of one that frame steps have counted already.
   void removeImage(Stamp stamp);
+  /// Whatever was told of frames from this stamp on, that have no lines yet, belongs elsewhere.
+  void forgetFrom(Stamp boundary);
   MotionUpdate addLines(const LineSet& lines);
   MotionUpdate addGroundTruth(const LineSet& ground_truth);
   MotionUpdate addDepth(Stamp stamp, DepthMap depth);

@@ -47,6 +47,7 @@ struct EvaluationUpdate {
   /// Told once: stamps of images (camera_info) are not those of the lines, but this far off, ns.
   std::optional<Stamp> image_offset;
   bool new_pass = false;
+  std::string changed_settings;  ///< why there is a new pass where time has not jumped back
 
   void append(EvaluationUpdate other);
 };
@@ -86,6 +87,13 @@ class PassEvaluation {
 
   /// A task of this pass will not be run.
   void skip(const EvaluationTask& task);
+
+  /// Frames from this stamp on that have no lines yet, and pairs that wait for them, belong to
+  /// another pass; they leave no trace here.
+  void forgetFrom(Stamp boundary);
+
+  /// The frame is left out on purpose; `text` goes to the report's notes.
+  void skipFrame(Stamp stamp, const std::string& text);
 
   /// Nor will those that are under way be waited for; a note says how many.
   void skipPending();

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,18 +24,28 @@ namespace evolin {
 /// pass) is counted as dropped, of matches as skipped, and warned of; images, which bring nothing
 /// but their stamp, leave no trace, depth and poses only where they have no stamp. Not safe for
 /// several threads at once.
+///
+/// Lines or matches from another source than those before them are of other settings: a new pass
+/// begins with the frame of such lines, or behind the newest lines for such matches, so that no
+/// figure is of two. What has come of later frames goes along to the new pass. Where two sources
+/// give lines of one stamp, or go back in time, they share the topic, and their change tells
+/// nothing.
 class StreamEvaluator {
  public:
   explicit StreamEvaluator(PassOptions options = {});
 
   EvaluationUpdate addImage(Stamp stamp);
   EvaluationUpdate addLines(LineSet lines);
-  EvaluationUpdate addGroundTruth(LineSet ground_truth);
-  EvaluationUpdate addMatches(MatchSet matches);
+  EvaluationUpdate addGroundTruth(const LineSet& ground_truth);
+  EvaluationUpdate addMatches(const MatchSet& matches);
+
+  /// While paused, lines, ground truth and matches are counted as skipped, images are not taken.
+  void pause(bool paused) { paused_ = paused; }
+  bool isPaused() const { return paused_; }
 
   /// Of all passes: a camera does not change with time's jumps.
   EvaluationUpdate setCamera(const Camera& camera);
-  EvaluationUpdate addDepth(Stamp stamp, DepthMap depth);
+  EvaluationUpdate addDepth(Stamp stamp, const DepthMap& depth);
   EvaluationUpdate addPose(const StampedPose& pose);
 
   /// The result of a task that an update gave out; one of a pass that is over, or of before a
@@ -78,10 +90,13 @@ class StreamEvaluator {
  private:
   enum Input { kImage, kLines, kGroundTruth, kMatches, kDepth, kPose, kInputs };
   using Key = std::pair<Stamp, Stamp>;  ///< second stamp, first stamp (0 where there is one only)
-  enum Fault { kNoStamp, kRepeated, kPassClosed, kSeveralSources };
+  enum Fault { kNoStamp, kRepeated, kPassClosed, kSeveralSources, kBetweenSettings, kPaused };
+  using AddTo = std::function<EvaluationUpdate(PassEvaluation*)>;
   struct Follower {
     int pass = 0;  ///< 0: nothing heard
     std::string source;
+    std::string taken_source;  ///< of what was taken last
+    int shared = 0;            ///< messages for which two sources seem to share the input
     Key last;
     std::set<Key> received;
   };
@@ -93,8 +108,15 @@ class StreamEvaluator {
   bool startedOutOfOrder(Input input, Stamp stamp) const;
   /// Fills in where the update's tasks come from.
   EvaluationUpdate marked(EvaluationUpdate update, int pass) const;
-  template <class Add>
-  EvaluationUpdate add(Input input, Key key, const std::string& source, const Add& add);
+  EvaluationUpdate add(Input input, Key key, const std::string& source, const AddTo& add);
+  void openPass(EvaluationUpdate* update);
+  bool isRepeated(const Follower& follower, Key key) const;
+  bool changesSettings(Input input, Key key, const std::string& source) const;
+  void beginSettings(Input input, Key key, const std::string& source, EvaluationUpdate* update);
+  void crossBoundaries(Input input, Key key);
+  bool isBetweenSettings(Input input, Key key, const std::string& source) const;
+  void remember(Input input, Key key, const AddTo& add);
+  void passOver(Input input, Key key, PassEvaluation* pass);
   PassEvaluation* passOf(std::uint64_t generation, int pass);
   PassEvaluation* enter(Input input, Key key, const std::string& source, EvaluationUpdate* update);
   void drop(Input input, Fault fault, const std::string& what, EvaluationUpdate* update);
@@ -108,6 +130,14 @@ class StreamEvaluator {
   bool previous_changed_ = false;
   int newest_ = 1;
   std::optional<Camera> camera_;
+  bool paused_ = false;
+  struct Boundary {
+    Stamp first;    ///< frame of the pass
+    Stamp changed;  ///< of the part that came from another source; not later
+  };
+  std::map<int, Boundary> boundaries_;  ///< of the passes that a change of settings has begun
+  /// Parts of the newest pass whose frames have no lines yet: they may belong to the next one.
+  std::array<std::deque<std::pair<Key, AddTo>>, kInputs> ahead_;
   std::uint64_t generation_ = 0;
 };
 

@@ -1,0 +1,192 @@
+// A process that hosts our nodelets as a manager does, for tests that run under sanitizers: 'host
+// cycle N' loads and unloads all of them N times in a stream; 'host stream FOLDER' evaluates one
+// until it is interrupted; 'host address ENCODING' sees whether an image reaches a plug-in
+// uncopied.
+#include <cv_bridge/cv_bridge.h>
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "conversions.h"
+#include "evolin_ros/LineArray.h"
+#include "test/support/drawn_sequence.h"
+
+namespace evolin::test {
+namespace {
+
+/// Images, cameras and annotations at 100 a second, of ever later stamps.
+class Camera {
+ public:
+  Camera()
+      : image_(handle_.advertise<sensor_msgs::Image>("image", 0)),
+        camera_info_(handle_.advertise<sensor_msgs::CameraInfo>("camera_info", 0)),
+        truth_(handle_.advertise<evolin_ros::LineArray>("ground_truth/lines", 0)),
+        thread_([this] { run(); }) {}
+  ~Camera() {
+    stop_ = true;
+    thread_.join();
+  }
+  Camera(const Camera&) = delete;
+  Camera& operator=(const Camera&) = delete;
+
+ private:
+  void run() {
+    const std::vector<SequenceFrame> drawn = drawSequence();
+    auto next = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; !stop_ && ros::ok(); ++i) {
+      const SequenceFrame& frame = drawn[i % drawn.size()];
+      std_msgs::Header header;
+      header.stamp = ros::Time(1000) + ros::Duration(0.01 * static_cast<double>(i));
+      header.frame_id = "camera";
+      camera_info_.publish(ros_shell::toMessage(*frame.frame.camera, header));
+      image_.publish(
+          cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, frame.frame.image)
+              .toImageMsg());
+      LineSet set;
+      set.source = "ground_truth";
+      set.width = frame.frame.image.cols;
+      set.height = frame.frame.image.rows;
+      set.lines = *frame.ground_truth;
+      const auto truth = boost::make_shared<evolin_ros::LineArray>(ros_shell::toMessage(set));
+      truth->header = header;
+      truth_.publish(truth);
+      next += std::chrono::milliseconds(10);
+      std::this_thread::sleep_until(next);
+    }
+  }
+
+  ros::NodeHandle handle_;
+  ros::Publisher image_;
+  ros::Publisher camera_info_;
+  ros::Publisher truth_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+void load(nodelet::Loader* loader, const std::string& name, const std::string& type,
+          const nodelet::M_string& remappings = {}) {
+  if (!loader->load("/" + name, "evolin_ros/" + type, remappings, {})) {
+    throw std::runtime_error(name + " does not load");
+  }
+}
+
+void loadAll(nodelet::Loader* loader) {
+  load(loader, "evaluator", "Evaluator");
+  load(loader, "detector", "LineDetector");
+  load(loader, "associator", "LineAssociator", {{"/lines", "/ground_truth/lines"}});
+}
+
+void setParameters(const std::string& folder) {
+  ros::param::set("/evaluator/output_dir", folder);
+  ros::param::set("/evaluator/save_period", 0.1);
+  ros::param::set("/evaluator/diagnostic_period", 0.05);
+  ros::param::set("/detector/detector", "hough_p");
+  for (const char* method : {"detector", "associator"}) {
+    ros::param::set(std::string("/") + method + "/lazy", false);
+    ros::param::set(std::string("/") + method + "/realtime", true);
+    ros::param::set(std::string("/") + method + "/diagnostic_period", 0.05);
+  }
+}
+
+/// The order of unloading changes from round to round.
+int cycle(int rounds, const std::string& folder) {
+  setParameters(folder);
+  nodelet::Loader loader(false);
+  const Camera camera;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  std::vector<std::string> names = {"associator", "detector", "evaluator"};
+  for (int i = 0; i < rounds; ++i) {
+    loadAll(&loader);
+    // Between nothing and a few frames.
+    std::this_thread::sleep_for(std::chrono::milliseconds(i * 37 % 90));
+    std::next_permutation(names.begin(), names.end());
+    for (const std::string& name : names) {
+      if (!loader.unload("/" + name)) {
+        throw std::runtime_error(name + " does not unload");
+      }
+    }
+  }
+  return 0;
+}
+
+int stream(const std::string& folder) {
+  setParameters(folder);
+  nodelet::Loader loader(false);
+  loadAll(&loader);
+  const Camera camera;
+  ros::spin();
+  return 0;
+}
+
+/// 0 when the plug-in got the very pixels of the message that was published in this process.
+int address(const std::string& encoding) {
+  ros::param::set("/detector/detector", "test_address");
+  ros::param::set("/detector/lazy", false);
+  nodelet::Loader loader(false);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  ros::NodeHandle handle;
+  std::promise<double> got;
+  const ros::Subscriber lines = handle.subscribe<evolin_ros::LineArray>(
+      "lines", 1, [&got](const evolin_ros::LineArrayConstPtr& message) {
+        got.set_value(message->lines.at(0).x1);
+      });
+  ros::Publisher image = handle.advertise<sensor_msgs::Image>("image", 1);
+  load(&loader, "detector", "LineDetector");
+  const int type = encoding == sensor_msgs::image_encodings::MONO8 ? CV_8UC1 : CV_8UC3;
+  std_msgs::Header header;
+  header.stamp = ros::Time(1000);
+  const sensor_msgs::ImagePtr message =
+      cv_bridge::CvImage(header, encoding, cv::Mat(48, 64, type, cv::Scalar::all(90))).toImageMsg();
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (image.getNumSubscribers() == 0 || lines.getNumPublishers() == 0) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      throw std::runtime_error("the nodelet does not connect");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  image.publish(message);
+  std::future<double> result = got.get_future();
+  if (result.wait_until(deadline) != std::future_status::ready) {
+    throw std::runtime_error("the nodelet sends no lines");
+  }
+  const auto expected = static_cast<double>(reinterpret_cast<std::uintptr_t>(message->data.data()));
+  return result.get() == expected ? 0 : 4;
+}
+
+}  // namespace
+}  // namespace evolin::test
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "nodelet_host");
+  const std::string verb = argc > 2 ? argv[1] : "";
+  try {
+    if (verb == "cycle" && argc > 3) {
+      return evolin::test::cycle(std::stoi(argv[2]), argv[3]);
+    }
+    if (verb == "address") {
+      return evolin::test::address(argv[2]);
+    }
+    if (verb == "stream") {
+      return evolin::test::stream(argv[2]);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nodelet_host: %s\n", error.what());
+    return 3;
+  }
+  std::fprintf(stderr,
+               "usage: nodelet_host cycle ROUNDS FOLDER | stream FOLDER | address ENCODING\n");
+  return 2;
+}
