@@ -23,8 +23,8 @@ namespace {
 constexpr const char* kUsage =
     "Estimates the motion between frames from matched lines with depth, in both directions, and "
     "scores it: medians of rotation error and translation angle (degrees) and of translation error "
-    "(metres), area under the cumulative curve of angles. The frames step is the number of line "
-    "files less the number of association files.\n\n"
+    "(metres), area under the cumulative curve of angles. The frames step is the number of frames "
+    "less the number of association files.\n\n"
     "Usage: evolin evaluate pose --lines DIR --associations DIR --depths DIR --poses FILE "
     "--depth-associations FILE --calibration-matrix FILE [OPTIONS]";
 

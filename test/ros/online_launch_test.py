@@ -34,7 +34,8 @@ def free_port():
 class OnlineLaunch(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp(prefix='evolin_test_')
+        # With a space: paths go to the nodes as parameters, which roslaunch does not split.
+        cls.folder = tempfile.mkdtemp(prefix='evolin test ')
         cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
         cls.bag = os.path.join(cls.folder, 'drawn.bag')
         subprocess.run([program('online_folder_tool'), cls.folder], check=True, timeout=LIMIT)
