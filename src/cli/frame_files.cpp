@@ -1,6 +1,7 @@
 // What goes by row is checked against whatever else tells which row is which: counts and names.
 #include "frame_files.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <utility>
@@ -76,12 +77,8 @@ std::vector<DepthAssociation> readRows(const FrameFolders& folders, std::size_t 
 void requireSameNames(const FrameFolders& folders, const std::vector<FrameFiles>& lines,
                       const DepthList& depths) {
   const auto has_line_of = [&lines](const std::string& stem) {
-    for (const FrameFiles& frame : lines) {
-      if (frame.stem == stem) {
-        return true;
-      }
-    }
-    return false;
+    return std::any_of(lines.begin(), lines.end(),
+                       [&stem](const FrameFiles& frame) { return frame.stem == stem; });
   };
   for (const DepthAssociation& row : depths.rows) {
     const std::string& line = lines[row.image].stem;

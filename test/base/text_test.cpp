@@ -235,7 +235,10 @@ TEST(ReadLines, GivesBackTheBytesOfAnyFile) {
     for (const std::string& line : readLines(folder.write("f", bytes))) joined += line + "\n";
     // What may go missing: the mark, carriage returns before line ends, the last line end.
     std::string expected = bytes.substr(0, 3) == "\xEF\xBB\xBF" ? bytes.substr(3) : bytes;
-    for (std::size_t at; (at = expected.find("\r\n")) != std::string::npos;) expected.erase(at, 1);
+    for (std::size_t at = expected.find("\r\n"); at != std::string::npos;
+         at = expected.find("\r\n")) {
+      expected.erase(at, 1);
+    }
     if (!expected.empty() && expected.back() != '\n') expected += '\n';
     if (bytes.find("\r\r\n") != std::string::npos) continue;  // only the last return is an end
     ASSERT_EQ(joined, expected);

@@ -27,17 +27,17 @@ const LineSegments kSecond = {segment(31, 10, 51, 30), segment(40, 90, 60, 70),
 TEST(BestLocalization, AveragesTheSmallestOfBothDirections) {
   const SpatialFrame first = wallFrame(Protocol::kPaper, kFirst);
   const SpatialFrame second = wallFrame(Protocol::kPaper, kSecond);
-  const auto errorOf = [&](std::size_t count) {
+  const auto error_of = [&](std::size_t count) {
     return measureBestLocalization(first, second, best(count));
   };
-  EXPECT_EQ(errorOf(1).mean_distance, 0);
-  EXPECT_EQ(errorOf(2).mean_distance, 0);
-  EXPECT_DOUBLE_EQ(errorOf(3).mean_distance, 2.0 / 3);
-  EXPECT_EQ(errorOf(4).mean_distance, 1);
-  EXPECT_EQ(errorOf(5).mean_distance, 64.0 / 5);
-  EXPECT_EQ(errorOf(5).used, 5U);
-  EXPECT_EQ(errorOf(50).used, 5U);
-  EXPECT_EQ(errorOf(50).mean_distance, 64.0 / 5);
+  EXPECT_EQ(error_of(1).mean_distance, 0);
+  EXPECT_EQ(error_of(2).mean_distance, 0);
+  EXPECT_DOUBLE_EQ(error_of(3).mean_distance, 2.0 / 3);
+  EXPECT_EQ(error_of(4).mean_distance, 1);
+  EXPECT_EQ(error_of(5).mean_distance, 64.0 / 5);
+  EXPECT_EQ(error_of(5).used, 5U);
+  EXPECT_EQ(error_of(50).used, 5U);
+  EXPECT_EQ(error_of(50).mean_distance, 64.0 / 5);
 }
 
 TEST(BestLocalization, TheOrthogonalDistanceIsGatedUnderEvolin) {
@@ -88,6 +88,7 @@ TEST(BestLocalization, MergeEqualsAllInOneToTheLastBit) {
   test::RandomLines random(7);
   const LineSegments world = random.anywhere(30, 127, 127);
   std::vector<SpatialFrame> frames;
+  frames.reserve(6);
   for (int number = 0; number < 6; ++number) {
     frames.push_back(wallFrame(Protocol::kEvolin, random.detectionsOf(world, 40, 4), number));
   }

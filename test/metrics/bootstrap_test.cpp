@@ -14,7 +14,7 @@ namespace evolin {
 namespace {
 
 /// The mean of `values` over the resampled frames.
-WeightedFigures meanOf(std::vector<double> values) {
+WeightedFigures meanOf(const std::vector<double>& values) {
   return [values](const std::vector<std::uint32_t>& weights) {
     double sum = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {

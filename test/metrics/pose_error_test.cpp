@@ -185,6 +185,7 @@ TEST(PoseErrorMetrics, CountsNearlyStaticIllConditionedAndSuccessfulPairs) {
 TEST(PoseErrorMetrics, DoesNotDependOnOrderOrMerging) {
   test::RandomLines random(2);
   std::vector<PosePair> pairs;
+  pairs.reserve(101);
   for (int i = 0; i < 101; ++i) {
     pairs.push_back(
         i % 10 == 0 ? PosePair{}

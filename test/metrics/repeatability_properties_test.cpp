@@ -55,7 +55,7 @@ struct Scene {
 /// Redetections written down once more, without search structures.
 Redetections exhaustive(const SpatialFrame& from, const SpatialFrame& to, LineDistance distance,
                         double threshold) {
-  const auto toScaled = [&to](LineSegment line) {
+  const auto to_scaled = [&to](LineSegment line) {
     line.x1 *= 128.0 / to.size.width;
     line.x2 *= 128.0 / to.size.width;
     line.y1 *= 128.0 / to.size.height;
@@ -68,8 +68,8 @@ Redetections exhaustive(const SpatialFrame& from, const SpatialFrame& to, LineDi
     double nearest = INFINITY;
     for (const SpatialLine& line : to.lines) {
       if (line.in_image) {
-        const LineSegment a = toScaled(projection.segment);
-        const LineSegment b = toScaled(line.segment);
+        const LineSegment a = to_scaled(projection.segment);
+        const LineSegment b = to_scaled(line.segment);
         nearest = std::min(nearest, distance == LineDistance::kStructural
                                         ? structuralDistance(a, b)
                                         : orthogonalDistance(a, b, evolin));

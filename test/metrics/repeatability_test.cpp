@@ -84,17 +84,17 @@ TEST(RepeatabilityMetrics, MeasuresBothDistancesInBothDirections) {
 }
 
 TEST(RepeatabilityMetrics, ThresholdIsExcludedByEvolinAndIncludedByPaper) {
-  const auto countAt = [](Protocol protocol) {
+  const auto count_at = [](Protocol protocol) {
     return measureOne(wallFrame(protocol, {kLine}), wallFrame(protocol, {kTwoAway}, kShift), 2)
         .forward.count;
   };
-  EXPECT_EQ(countAt(Protocol::kEvolin), 0U);
-  EXPECT_EQ(countAt(Protocol::kPaper), 1U);
+  EXPECT_EQ(count_at(Protocol::kEvolin), 0U);
+  EXPECT_EQ(count_at(Protocol::kPaper), 1U);
 }
 
 TEST(RepeatabilityMetrics, ScalesEachAxisOnItsOwn) {
   // 256 x 128 pixels: two pixels in x are one scaled pixel, one in y is one.
-  const auto distanceOf = [](const LineSegment& detected) {
+  const auto distance_of = [](const LineSegment& detected) {
     const auto frame = [](const LineSegment& line) {
       return liftLines(Protocol::kEvolin, "wide", {line},
                        DepthMap(cv::Mat(128, 256, CV_32FC1, cv::Scalar(2))), test::wallCamera(),
@@ -102,33 +102,33 @@ TEST(RepeatabilityMetrics, ScalesEachAxisOnItsOwn) {
     };
     return measureOne(frame(kLine), frame(detected)).localizationError(Protocol::kEvolin);
   };
-  EXPECT_EQ(distanceOf(segment(32, 10, 52, 30)), 2);
-  EXPECT_EQ(distanceOf(segment(30, 11, 50, 31)), 2);
+  EXPECT_EQ(distance_of(segment(32, 10, 52, 30)), 2);
+  EXPECT_EQ(distance_of(segment(30, 11, 50, 31)), 2);
 }
 
 TEST(RepeatabilityMetrics, ErrorIsAveragedOverDirectionsByEvolinAndOverLinesByPaper) {
   // Forward: 2. Backward: 2 and 4.
-  const auto measureAs = [](Protocol protocol) {
+  const auto measure_as = [](Protocol protocol) {
     return measureOne(wallFrame(protocol, {kLine}),
                       wallFrame(protocol, {kTwoAway, kFourAway}, kShift));
   };
-  EXPECT_EQ(measureAs(Protocol::kEvolin).repeatability(), 1);
-  EXPECT_EQ(measureAs(Protocol::kEvolin).localizationError(Protocol::kEvolin), 2.5);
-  EXPECT_DOUBLE_EQ(measureAs(Protocol::kPaper).localizationError(Protocol::kPaper), 8.0 / 3);
+  EXPECT_EQ(measure_as(Protocol::kEvolin).repeatability(), 1);
+  EXPECT_EQ(measure_as(Protocol::kEvolin).localizationError(Protocol::kEvolin), 2.5);
+  EXPECT_DOUBLE_EQ(measure_as(Protocol::kPaper).localizationError(Protocol::kPaper), 8.0 / 3);
 }
 
 TEST(RepeatabilityMetrics, LinesWithoutDepthCountAndCanBeFound) {
-  const auto measureAs = [](Protocol protocol) {
+  const auto measure_as = [](Protocol protocol) {
     return measureOne(halfWallFrame(protocol, {kLine}, 20),
                       wallFrame(protocol, {kTwoAway, kFourAway}, kShift));
   };
-  const PairRepeatability pair = measureAs(Protocol::kEvolin);
+  const PairRepeatability pair = measure_as(Protocol::kEvolin);
   EXPECT_EQ(pair.lines, 3U);
   EXPECT_EQ(pair.forward.count, 0U);
   EXPECT_EQ(pair.backward.count, 2U);
   EXPECT_DOUBLE_EQ(pair.repeatability(), 2.0 / 3);
   EXPECT_EQ(pair.localizationError(Protocol::kEvolin), 1.5);  // the empty direction counts as 0
-  EXPECT_EQ(measureAs(Protocol::kPaper).localizationError(Protocol::kPaper), 3);
+  EXPECT_EQ(measure_as(Protocol::kPaper).localizationError(Protocol::kPaper), 3);
 }
 
 TEST(RepeatabilityMetrics, ZeroLengthDetectionsCountAndHarmNoOther) {
@@ -163,15 +163,15 @@ TEST(RepeatabilityMetrics, LinesOutsideTheImageCountUnderPaper) {
 }
 
 TEST(RepeatabilityMetrics, ScoresFilterSourcesTargetsAndCounts) {
-  const auto scoredLine = [](LineSegment line, double score) {
+  const auto scored_line = [](LineSegment line, double score) {
     line.score = score;
     return line;
   };
   RepeatabilityOptions options = structural(Protocol::kEvolin);
   options.score_thresholds = {0.1, 0.5, 0.8};
   const auto results = RepeatabilityMetrics(options).measure(
-      wallFrame(Protocol::kEvolin, {scoredLine(kLine, 0.9)}),
-      wallFrame(Protocol::kEvolin, {scoredLine(kTwoAway, 0.5), scoredLine(kFourAway, 0.7)},
+      wallFrame(Protocol::kEvolin, {scored_line(kLine, 0.9)}),
+      wallFrame(Protocol::kEvolin, {scored_line(kTwoAway, 0.5), scored_line(kFourAway, 0.7)},
                 kShift));
   ASSERT_EQ(results.size(), 3U);
   EXPECT_EQ(results[0].lines, 3U);

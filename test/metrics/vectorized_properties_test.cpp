@@ -80,11 +80,11 @@ TEST_P(ExhaustiveComparison, AgreesForEverySettingAndScoreThreshold) {
   for (std::uint32_t frame = 0; frame < 12; ++frame) {
     LineSegments truth = random.anywhere(30, 100, 100);
     LineSegments predicted = random.detectionsOf(truth, 90, 6);
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      truth[i].x1 += 10;  // all of them inside, so that preparing changes nothing
-      truth[i].y1 += 10;
-      truth[i].x2 += 10;
-      truth[i].y2 += 10;
+    for (LineSegment& line : truth) {
+      line.x1 += 10;  // all of them inside, so that preparing changes nothing
+      line.y1 += 10;
+      line.x2 += 10;
+      line.y2 += 10;
     }
     for (LineSegment& line : predicted) {
       line.x1 += 10;

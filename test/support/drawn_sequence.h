@@ -68,6 +68,7 @@ inline void fill(cv::Mat* image, const std::array<cv::Point2d, 4>& points,
                  const cv::Scalar& colour) {
   constexpr int kShift = 8;
   std::vector<cv::Point> fixed;
+  fixed.reserve(points.size());
   for (const cv::Point2d& point : points) {
     fixed.emplace_back(static_cast<int>(std::lround(point.x * (1 << kShift))),
                        static_cast<int>(std::lround(point.y * (1 << kShift))));
@@ -150,6 +151,7 @@ inline SequenceFrame drawFrame(const DrawnSequence& sequence, int number) {
 
 inline std::vector<SequenceFrame> drawSequence(const DrawnSequence& sequence = {}) {
   std::vector<SequenceFrame> frames;
+  frames.reserve(static_cast<std::size_t>(sequence.frames));
   for (int number = 0; number < sequence.frames; ++number) {
     frames.push_back(drawFrame(sequence, number));
   }
