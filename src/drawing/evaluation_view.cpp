@@ -19,6 +19,10 @@ constexpr double kGap = 9;   // before a section
 constexpr double kIndent = 10;
 constexpr double kSwatch = 26;
 
+// Of trails, in image pixels.
+constexpr double kTrailWidth = 0.75;
+constexpr double kTrailDot = 1.25;
+
 void checkRange(const std::string& name, double value, double low, double high) {
   if (!(value >= low && value <= high)) {
     throw Error("view option " + name + " " + formatDouble(value) + ": expected " +
@@ -91,7 +95,7 @@ class MarginWriter {
   }
 
   /// Trails have no one colour.
-  void trailLegend(std::size_t count, double width) {
+  void trailLegend(std::size_t count) {
     constexpr int kPieces = 3;
     const double middle = baseline() - kText / 2;
     for (int i = 0; i < kPieces; ++i) {
@@ -99,7 +103,7 @@ class MarginWriter {
       piece.x1 = left_ + i * kSwatch / kPieces;
       piece.x2 = left_ + (i + 1) * kSwatch / kPieces;
       piece.y1 = piece.y2 = middle;
-      canvas_.drawLine(piece, {colourOfNumber(i), width});
+      canvas_.drawLine(piece, {colourOfNumber(i), kTrailWidth});
     }
     canvas_.drawDot({left_ + kSwatch, middle}, 2, colourOfNumber(kPieces - 1));
     const std::string value = std::to_string(count);
@@ -152,7 +156,7 @@ void drawMargin(const EvaluatedFrame& frame, const ViewOptions& options, const c
   for (std::size_t i = legend.size(); i < kVerdictRows; ++i) {
     writer.row("", palette::kInk);
   }
-  writer.trailLegend(frame.trails.size(), options.line_width);
+  writer.trailLegend(frame.trails.size());
   writer.row(isJudged(frame) ? frame.judged_by : frame.no_verdicts, palette::kFaintInk);
   for (const ViewSection& section : frame.sections) {
     writer.gap();
@@ -190,20 +194,25 @@ void drawVerdicts(const EvaluatedFrame& frame, const ViewOptions& options, Canva
   }
 }
 
+/// Thin and below everything else: they move the eye but hide no verdict.
+void drawTrails(const std::vector<LineTrail>& trails, Canvas* canvas) {
+  for (const LineTrail& trail : trails) {
+    const Colour colour = colourOfNumber(trail.track);
+    canvas->drawPath(trail.points, {colour, kTrailWidth});
+    canvas->drawDot(trail.points.back(), kTrailDot, colour);
+  }
+}
+
 void drawLayers(const EvaluatedFrame& frame, const ViewOptions& options, const cv::Mat& picture) {
   Canvas canvas(picture, options.scale);
+  if (options.trails) {
+    drawTrails(frame.trails, &canvas);
+  }
   if (isJudged(frame)) {
     drawVerdicts(frame, options, &canvas);
   } else {
     for (const LineSegment& line : frame.lines) {
       canvas.drawLine(line, penOf(palette::kPlain, options));
-    }
-  }
-  if (options.trails) {
-    for (const LineTrail& trail : frame.trails) {
-      const Colour colour = colourOfNumber(trail.track);
-      canvas.drawPath(trail.points, {colour, options.line_width});
-      canvas.drawDot(trail.points.back(), 1.5 * options.line_width, colour);
     }
   }
 }

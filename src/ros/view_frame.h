@@ -17,7 +17,7 @@ struct ViewFrameOptions {
   double threshold = 5;  ///< of the structural distance, in pixels of the image scaled to 128 x 128
   Protocol protocol = Protocol::kEvolin;
   TrailsFrom trails_from = TrailsFrom::kMatches;
-  int trail_length = 8;  ///< points
+  int trail_length = 5;  ///< points
 };
 
 /// Remembers where lines have been. One thread at a time.

@@ -18,7 +18,7 @@ TEST(ViewerOptions, HaveTheDocumentedDefaults) {
   EXPECT_EQ(options.frame.threshold, 5);
   EXPECT_EQ(options.frame.protocol, Protocol::kEvolin);
   EXPECT_EQ(options.frame.trails_from, TrailsFrom::kMatches);
-  EXPECT_EQ(options.frame.trail_length, 8);
+  EXPECT_EQ(options.frame.trail_length, 5);
   EXPECT_EQ(options.view.scale, 1);
   EXPECT_TRUE(options.view.margin);
   EXPECT_EQ(options.view.brightness, 0.6);

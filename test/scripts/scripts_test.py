@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The Python behind scripts/test and scripts/demo (counting test cases, printing a report), and the two
-lists of packages that setup goes by."""
+"""The Python behind scripts/test and scripts/demo (counting test cases, printing a report), what
+scripts/screenshots refuses, and the two lists of packages that setup goes by."""
 
 import importlib.machinery
 import importlib.util
@@ -168,6 +168,33 @@ class Render(unittest.TestCase):
     def test_an_object_without_any_section_is_refused(self):
         with self.assertRaises(print_report.ReportError):
             print_report.render({})
+
+
+class Screenshots(unittest.TestCase):
+    """What is refused before anything is started."""
+
+    def refusal(self, *arguments, **environment):
+        process = subprocess.run([os.path.join(SCRIPTS, "screenshots"), *arguments], timeout=30,
+                                 env=dict(os.environ, **environment), stdout=subprocess.PIPE,
+                                 stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(process.stdout, "")
+        return process.returncode, process.stderr
+
+    def test_wrong_use(self):
+        for arguments in (["--nonsense"], ["--at"], ["--at", "soon"]):
+            status, message = self.refusal(*arguments)
+            self.assertEqual(status, 2)
+            self.assertIn(arguments[0], message)
+
+    def test_a_bag_that_is_not_there(self):
+        status, message = self.refusal("--bag", "/nowhere/drawn.bag")
+        self.assertEqual(status, 1)
+        self.assertEqual(message, "screenshots: --bag /nowhere/drawn.bag: there is no such file\n")
+
+    def test_no_build(self):
+        status, message = self.refusal(EVOLIN_BUILD="nothing_of_the_kind")
+        self.assertEqual(status, 1)
+        self.assertIn("run scripts/build first", message)
 
 
 class PackageLists(unittest.TestCase):
