@@ -1,6 +1,8 @@
 // Pixels of one image as numbered cells, sets of them as bits, and discs around them.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -125,18 +127,39 @@ class CellSet {
     const std::uint32_t* squared = grid.squared_.data();
     Cell begin = grid.corner(centre);
     const Cell shift = begin % kBits;
+    std::array<std::uint64_t, kRows> found;
     for (Cell column = 0; column < side; column += kBits) {
       const std::uint64_t* const left = words_.data() + begin / kBits;
-      const std::uint64_t* const right = left + (std::size_t{1} << grid.column_bits_);
-      for (Cell row = 0; row < side; ++row) {
-        std::uint64_t found = window(left[row], right[row], shift) & mask[row];
-        for (; found != 0; found &= found - 1) {
-          const auto bit = static_cast<Cell>(__builtin_ctzll(found));
-          const Cell place = shift + bit;  // from the left word's first cell on
-          const Cell cell = begin - shift + row * kBits +
-                            ((place / kBits * kBits) << grid.column_bits_) + place % kBits;
-          if (!visit(cell, squared[row * kBits + bit])) {
-            return;
+      for (Cell first = 0; first < side; first += kRows) {
+        const Cell rows = std::min(side - first, kRows);
+        const std::uint64_t* const right = left + (std::size_t{1} << grid.column_bits_);
+        // Loops of vectors apart from what cannot be one. Most discs end in the word they begin in.
+        if (shift + side <= kBits) {
+          for (Cell row = 0; row < rows; ++row) {
+            found[row] = (left[first + row] >> shift) & mask[first + row];
+          }
+        } else {
+          for (Cell row = 0; row < rows; ++row) {
+            found[row] = window(left[first + row], right[first + row], shift) & mask[first + row];
+          }
+        }
+        // Which rows hold something cannot be foreseen: they are listed without a branch.
+        std::array<Cell, kRows> filled;
+        Cell count = 0;
+        for (Cell row = 0; row < rows; ++row) {
+          filled[count] = row;
+          count += found[row] != 0 ? 1 : 0;
+        }
+        for (Cell i = 0; i < count; ++i) {
+          const Cell row = filled[i];
+          for (std::uint64_t bits = found[row]; bits != 0; bits &= bits - 1) {
+            const auto bit = static_cast<Cell>(__builtin_ctzll(bits));
+            const Cell place = shift + bit;  // from the left word's first cell on
+            const Cell cell = begin - shift + (first + row) * kBits +
+                              ((place / kBits * kBits) << grid.column_bits_) + place % kBits;
+            if (!visit(cell, squared[(first + row) * kBits + bit])) {
+              return;
+            }
           }
         }
       }
@@ -148,6 +171,7 @@ class CellSet {
 
  private:
   static constexpr Cell kBits = PixelGrid::kBits;
+  static constexpr Cell kRows = 32;  ///< of a disc, looked at together
 
   static std::uint64_t bit(Cell cell) { return std::uint64_t{1} << (cell % kBits); }
 
