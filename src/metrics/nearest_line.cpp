@@ -188,11 +188,11 @@ NearestLine NearestLineSearch::find(LineDistance distance, const LineSegment& qu
   const bool structural = distance == LineDistance::kStructural;
   // Single precision keeps 24 bits: the bounds are good to about 1e-6 of the largest coordinate.
   const double error = 1e-5 * (1 + std::max(largest_, largestCoordinate(query)));
-  const auto toBound = [structural, error](double limit) {
+  const auto to_bound = [structural, error](double limit) {
     const double forgiving = (limit + error) * (1 + 1e-5);
     return narrow(structural ? forgiving * forgiving : forgiving);
   };
-  const float farthest = toBound(reach);
+  const float farthest = to_bound(reach);
   std::size_t candidates = 0;
   if (structural) {
     const Window window = windowAround(query.x1 + query.x2, (reach + error) * (1 + 1e-5));
@@ -211,7 +211,7 @@ NearestLine NearestLineSearch::find(LineDistance distance, const LineSegment& qu
     if (exact <= reach &&
         (exact < nearest.distance || (exact == nearest.distance && row < nearest.row))) {
       nearest = {row, exact};
-      limit = toBound(exact);
+      limit = to_bound(exact);
     }
   };
   // The most promising one first, so that its distance rules most others out.

@@ -125,13 +125,15 @@ void PriceSearch::bidWithoutStep(std::vector<std::uint32_t>* waiting) {
 
 /// Changes the best of tied offers to one for a free site; false if there is none.
 bool PriceSearch::preferFreeSite(std::uint32_t bidder, Offer* offer) const {
-  for (const Arc arc : lists_.ranges[bidder]) {
-    if (cost(arc) == offer->cost && sites_[arc.site()].owner == kNone) {
-      offer->best = arc;
-      return true;
-    }
+  const auto& arcs = lists_.ranges[bidder];
+  const auto free_one = std::find_if(arcs.begin(), arcs.end(), [&](Arc arc) {
+    return cost(arc) == offer->cost && sites_[arc.site()].owner == kNone;
+  });
+  if (free_one == arcs.end()) {
+    return false;
   }
-  return false;
+  offer->best = *free_one;
+  return true;
 }
 
 /// Bids above the second best offer by a step, which unties; then takes back what became too dear.

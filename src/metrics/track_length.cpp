@@ -124,7 +124,7 @@ std::optional<double> TrackMetrics::medianLength() const {
     return std::nullopt;
   }
   const std::map<std::uint32_t, std::uint64_t> by_length = lengths();
-  const auto lengthAt = [&by_length](std::uint64_t rank) {
+  const auto length_at = [&by_length](std::uint64_t rank) {
     auto at = by_length.begin();
     while (rank >= at->second) {
       rank -= at->second;
@@ -132,7 +132,7 @@ std::optional<double> TrackMetrics::medianLength() const {
     }
     return static_cast<double>(at->first);
   };
-  return (lengthAt((count - 1) / 2) + lengthAt(count / 2)) / 2;
+  return (length_at((count - 1) / 2) + length_at(count / 2)) / 2;
 }
 
 std::uint32_t TrackMetrics::longest() const {

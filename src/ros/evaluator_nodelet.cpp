@@ -111,17 +111,18 @@ class EvaluatorNodelet : public SafeNodelet {
     if (families.count(MetricFamily::kRepeatability) + families.count(MetricFamily::kPose) > 0) {
       motion_inputs_ = std::make_unique<MotionInputs>(
           handle, options_,
-          MotionInputs::Callbacks{
-              [this](const std_msgs::Header& header, DepthMap depth) {
-                takeBeside(topics::kDepth, [&](StreamEvaluator* evaluator) {
-                  return evaluator->addDepth(fromRos(header.stamp), std::move(depth));
-                });
-              },
-              [this](const StampedPose& pose) {
-                takeBeside(topics::kGroundTruthPose,
-                           [&](StreamEvaluator* evaluator) { return evaluator->addPose(pose); });
-              },
-              [this](const std::string& text) { warn(text); }});
+          MotionInputs::Callbacks{[this](const std_msgs::Header& header, const DepthMap& depth) {
+                                    takeBeside(topics::kDepth, [&](StreamEvaluator* evaluator) {
+                                      return evaluator->addDepth(fromRos(header.stamp), depth);
+                                    });
+                                  },
+                                  [this](const StampedPose& pose) {
+                                    takeBeside(topics::kGroundTruthPose,
+                                               [&](StreamEvaluator* evaluator) {
+                                                 return evaluator->addPose(pose);
+                                               });
+                                  },
+                                  [this](const std::string& text) { warn(text); }});
     }
   }
 

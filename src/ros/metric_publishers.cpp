@@ -59,7 +59,7 @@ MetricPublishers::MetricPublishers(ros::NodeHandle& handle, const PassOptions& o
 
 void MetricPublishers::publish(const EvaluationUpdate& update,
                                const std_msgs::Header& header) const {
-  const auto headOf = [&](Stamp stamp) {
+  const auto head_of = [&](Stamp stamp) {
     MetricHead head{header, false, 1, options_.evaluation.vectorized.protocol};
     head.header.stamp = toRosTime(stamp);
     return head;
@@ -68,7 +68,7 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
     for (const FrameRecord& frame : update.frames) {
       if (frame.state == FrameState::kEvaluated) {
         detection_frame_.publish(
-            detectionMessage(headOf(frame.stamp), frame.entries, frame.spatial_spread));
+            detectionMessage(head_of(frame.stamp), frame.entries, frame.spatial_spread));
       }
     }
   }
@@ -76,26 +76,26 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
     const std::vector<double> thresholds =
         frame.scored == false ? std::vector<double>()
                               : HeatmapMetrics(options_.evaluation.heatmap).scoreThresholds();
-    heatmap_frame_.publish(heatmapMessage(headOf(frame.stamp), thresholds, frame.counts));
+    heatmap_frame_.publish(heatmapMessage(head_of(frame.stamp), thresholds, frame.counts));
   }
   for (const RepeatabilityRecord& pair : update.repeatability) {
     const bool first_step = pair.frame_step == options_.motion.repeatabilities.frame_steps.front();
     repeatability_frame_.publish(
-        repeatabilityMessage(headOf(pair.stamp), pair, repeatability_settings_,
+        repeatabilityMessage(head_of(pair.stamp), pair, repeatability_settings_,
                              repeatability_settings_by_score_, first_step));
   }
   if (wants(MetricFamily::kAssociation)) {
     for (const PairRecord& pair : update.pairs) {
-      association_frame_.publish(associationMessage(headOf(pair.stamp), pair.counts));
+      association_frame_.publish(associationMessage(head_of(pair.stamp), pair.counts));
     }
     for (const DetectedPairRecord& pair : update.detected_pairs) {
-      detected_association_frame_.publish(associationMessage(headOf(pair.stamp), pair.counts));
+      detected_association_frame_.publish(associationMessage(head_of(pair.stamp), pair.counts));
     }
   }
   for (const PoseRecord& pair : update.poses) {
     PoseErrorMetrics errors(options_.evaluation.pose_errors);
     errors.addPair(pair.pair);
-    pose_frame_.publish(poseMessage(headOf(pair.stamp), errors,
+    pose_frame_.publish(poseMessage(head_of(pair.stamp), errors,
                                     toString(options_.motion.pose_method.strategy), pair.frame_step,
                                     options_.auc_thresholds));
   }
@@ -103,21 +103,21 @@ void MetricPublishers::publish(const EvaluationUpdate& update,
 
 void MetricPublishers::publishSums(const PassSums& pass, const std_msgs::Header& header) const {
   const SequenceEvaluator& sums = pass.evaluator;
-  const auto headFor = [&](std::size_t frames) {
+  const auto head_for = [&](std::size_t frames) {
     return MetricHead{header, true, frames, options_.evaluation.vectorized.protocol};
   };
   if (wants(MetricFamily::kDetection)) {
-    detection_cumulative_.publish(detectionMessage(headFor(sums.detection().frames()),
+    detection_cumulative_.publish(detectionMessage(head_for(sums.detection().frames()),
                                                    sums.detectionEntries(), sums.spread().share()));
   }
   if (wants(MetricFamily::kHeatmap)) {
     const UnscoredHeatmap& unscored = sums.unscoredHeatmap();
     if (unscored.frames > 0 && sums.heatmapFrames() == unscored.empty_frames) {
       heatmap_cumulative_.publish(
-          heatmapMessage(headFor(unscored.frames + unscored.empty_frames), {}, {unscored.counts}));
+          heatmapMessage(head_for(unscored.frames + unscored.empty_frames), {}, {unscored.counts}));
     } else {
       heatmap_cumulative_.publish(
-          heatmapMessage(headFor(sums.heatmapFrames()), sums.heatmapThresholds(), sums.heatmap()));
+          heatmapMessage(head_for(sums.heatmapFrames()), sums.heatmapThresholds(), sums.heatmap()));
     }
   }
   if (wants(MetricFamily::kRepeatability)) {
@@ -125,21 +125,21 @@ void MetricPublishers::publishSums(const PassSums& pass, const std_msgs::Header&
     for (const int step : options_.motion.repeatabilities.frame_steps) {
       pairs += pass.repeatability.pairs(step);
     }
-    repeatability_cumulative_.publish(repeatabilityMessage(headFor(pairs), pass));
+    repeatability_cumulative_.publish(repeatabilityMessage(head_for(pairs), pass));
   }
   if (wants(MetricFamily::kAssociation)) {
-    association_cumulative_.publish(associationMessage(headFor(sums.association().pairs()),
+    association_cumulative_.publish(associationMessage(head_for(sums.association().pairs()),
                                                        sums.association().classification()));
     detected_association_cumulative_.publish(associationMessage(
-        headFor(sums.detectedAssociation().pairs()), sums.detectedAssociation().classification()));
+        head_for(sums.detectedAssociation().pairs()), sums.detectedAssociation().classification()));
   }
   if (wants(MetricFamily::kPose)) {
-    pose_cumulative_.publish(poseMessage(headFor(sums.pose().pairs()), sums.pose(),
+    pose_cumulative_.publish(poseMessage(head_for(sums.pose().pairs()), sums.pose(),
                                          toString(options_.motion.pose_method.strategy),
                                          pass.pose_step, options_.auc_thresholds));
   }
   if (wants(MetricFamily::kTracks)) {
-    tracks_cumulative_.publish(trackMessage(headFor(0), pass.tracks));
+    tracks_cumulative_.publish(trackMessage(head_for(0), pass.tracks));
   }
   coverage_.publish(coverageMessage(header, pass.coverage));
 }

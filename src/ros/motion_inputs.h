@@ -24,7 +24,7 @@ namespace evolin::ros_shell {
 class MotionInputs {
  public:
   struct Callbacks {
-    std::function<void(const std_msgs::Header&, DepthMap)> depth;
+    std::function<void(const std_msgs::Header&, const DepthMap&)> depth;
     std::function<void(const StampedPose&)> pose;
     std::function<void(const std::string&)> unusable;  ///< a message could not be taken, and why
   };

@@ -33,7 +33,8 @@ nlohmann::ordered_json toJson(XmlRpc::XmlRpcValue value) {
       return static_cast<std::string>(value);
     case XmlRpc::XmlRpcValue::TypeArray: {
       nlohmann::ordered_json array = nlohmann::ordered_json::array();
-      for (int i = 0; i < value.size(); ++i) {
+      // XmlRpcValue has iterators of structs alone.
+      for (int i = 0; i < value.size(); ++i) {  // NOLINT(modernize-loop-convert)
         array.push_back(toJson(value[i]));
       }
       return array;
@@ -66,7 +67,8 @@ YAML::Node toYaml(XmlRpc::XmlRpcValue value) {
       return YAML::Node(static_cast<std::string>(value));
     case XmlRpc::XmlRpcValue::TypeArray: {
       YAML::Node list(YAML::NodeType::Sequence);
-      for (int i = 0; i < value.size(); ++i) {
+      // XmlRpcValue has iterators of structs alone.
+      for (int i = 0; i < value.size(); ++i) {  // NOLINT(modernize-loop-convert)
         list.push_back(toYaml(value[i]));
       }
       return list;

@@ -53,7 +53,7 @@ StampedPose poseFromAny(const topic_tools::ShapeShifter& message) {
               "nav_msgs/Odometry");
 }
 
-TfPoses::TfPoses(std::string world_frame)
+TfPoses::TfPoses(const std::string& world_frame)
     : world_frame_(withoutLeadingSlash(world_frame)), buffer_(ros::Duration(kCacheSeconds)) {}
 
 std::vector<StampedPose> TfPoses::add(const tf2_msgs::TFMessage& message, bool is_static) {

@@ -27,7 +27,7 @@ class TfPoses {
   /// Asked for but not known yet: at most this many.
   static constexpr std::size_t kMostPending = 1000;
 
-  explicit TfPoses(std::string world_frame);
+  explicit TfPoses(const std::string& world_frame);
 
   /// Returns what can be looked up now. A jump back in time forgets the past.
   std::vector<StampedPose> add(const tf2_msgs::TFMessage& message, bool is_static);

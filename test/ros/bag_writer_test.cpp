@@ -119,11 +119,11 @@ class BagOfFour : public testing::Test {
 
 /// Whether the running numbers are 0, 1, 2, ... in order of time.
 template <typename Message, typename Header>
-void expectNumbered(const rosbag::Bag& bag, const std::string& topic, const Header& headerOf) {
+void expectNumbered(const rosbag::Bag& bag, const std::string& topic, const Header& header_of) {
   SCOPED_TRACE(topic);
   std::uint32_t number = 0;
   for (const auto& [stamp, message] : messagesOf<Message>(bag, topic)) {
-    EXPECT_EQ(headerOf(*message).seq, number++);
+    EXPECT_EQ(header_of(*message).seq, number++);
   }
   EXPECT_GE(number, 2U);
 }

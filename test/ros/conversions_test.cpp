@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <ros/serialization.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -33,7 +34,12 @@ Message overTheWire(const Message& message) {
 /// Bit patterns tell one NaN from another and -0 from 0.
 template <typename Number>
 void expectSameBits(Number a, Number b) {
-  EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << a << " and " << b;
+  const auto bits = [](Number value) {
+    std::array<unsigned char, sizeof(Number)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof value);
+    return bytes;
+  };
+  EXPECT_EQ(bits(a), bits(b)) << a << " and " << b;
 }
 
 void expectSame(const LineSet& a, const LineSet& b) {

@@ -77,40 +77,40 @@ TEST(EvaluatorOptions, OfTheBootstrapMayBeNone) {
 }
 
 TEST(EvaluatorOptions, RefuseByNameWithValueAndRange) {
-  const auto expectRefusal = [](const std::string& yaml, const std::string& key,
-                                const std::string& part) {
+  const auto expect_refusal = [](const std::string& yaml, const std::string& key,
+                                 const std::string& part) {
     test::expectError<ConfigError>([&] { read(yaml); }, {"/evaluator", "'" + key + "'", part});
   };
-  expectRefusal("protocol: evolution", "protocol", "evolin, paper");
-  expectRefusal("distance_thresholds: [5, 0]", "distance_thresholds", "'0'");
-  expectRefusal("distance_thresholds: [.nan]", "distance_thresholds", "nan");
-  expectRefusal("distance_thresholds: []", "distance_thresholds", "got an empty list");
-  expectRefusal("distance_thresholds: 5", "distance_thresholds", "list");
-  expectRefusal("metrics: []", "metrics", "detection, heatmap, repeatability");
-  expectRefusal("metrics: [detections]", "metrics", "detections");
-  expectRefusal("success_rotation: -1", "success_rotation", "from 0 to 180");
-  expectRefusal("success_translation: .nan", "success_translation", "nan");
-  expectRefusal("pose_seed: -1", "pose_seed", "'-1'");
-  expectRefusal("one_to_one_distance: 0", "one_to_one_distance", "'0'");
-  expectRefusal("one_to_one_angle: 91", "one_to_one_angle", "'91'");
-  expectRefusal("one_to_one_overlap: 1.5", "one_to_one_overlap", "from 0 to 1");
-  expectRefusal("bootstrap: -1", "bootstrap", "from 0 to 10000000");
-  expectRefusal("bootstrap_block: -2", "bootstrap_block", "'-2'");
-  expectRefusal("bootstrap_seed: x", "bootstrap_seed", "'x'");
-  expectRefusal("best_lines: 0", "best_lines", "'0'");
-  expectRefusal("repeatability_score_thresholds: [high]", "repeatability_score_thresholds",
-                "'high'");
-  expectRefusal("frame_step: 0", "frame_step", "'0'");
-  expectRefusal("matches_from: id", "matches_from", "topic, ids");
-  expectRefusal("frame_step: 1.5", "frame_step", "'1.5'");
-  expectRefusal("buffer: 1", "buffer", "from 2 to 1000000");
-  expectRefusal("save_period: 0", "save_period", "0.01");
-  expectRefusal("idle_timeout: -1", "idle_timeout", "'-1'");
-  expectRefusal("drain_timeout: .inf", "drain_timeout", "inf");
-  expectRefusal("warn_after: soon", "warn_after", "'soon'");
-  expectRefusal("record_parameters: /detector", "record_parameters", "list");
-  expectRefusal("input: a.bag", "input", "map");
-  expectRefusal("frame_steps: 3", "frame_steps", "did you mean 'frame_step'");
+  expect_refusal("protocol: evolution", "protocol", "evolin, paper");
+  expect_refusal("distance_thresholds: [5, 0]", "distance_thresholds", "'0'");
+  expect_refusal("distance_thresholds: [.nan]", "distance_thresholds", "nan");
+  expect_refusal("distance_thresholds: []", "distance_thresholds", "got an empty list");
+  expect_refusal("distance_thresholds: 5", "distance_thresholds", "list");
+  expect_refusal("metrics: []", "metrics", "detection, heatmap, repeatability");
+  expect_refusal("metrics: [detections]", "metrics", "detections");
+  expect_refusal("success_rotation: -1", "success_rotation", "from 0 to 180");
+  expect_refusal("success_translation: .nan", "success_translation", "nan");
+  expect_refusal("pose_seed: -1", "pose_seed", "'-1'");
+  expect_refusal("one_to_one_distance: 0", "one_to_one_distance", "'0'");
+  expect_refusal("one_to_one_angle: 91", "one_to_one_angle", "'91'");
+  expect_refusal("one_to_one_overlap: 1.5", "one_to_one_overlap", "from 0 to 1");
+  expect_refusal("bootstrap: -1", "bootstrap", "from 0 to 10000000");
+  expect_refusal("bootstrap_block: -2", "bootstrap_block", "'-2'");
+  expect_refusal("bootstrap_seed: x", "bootstrap_seed", "'x'");
+  expect_refusal("best_lines: 0", "best_lines", "'0'");
+  expect_refusal("repeatability_score_thresholds: [high]", "repeatability_score_thresholds",
+                 "'high'");
+  expect_refusal("frame_step: 0", "frame_step", "'0'");
+  expect_refusal("matches_from: id", "matches_from", "topic, ids");
+  expect_refusal("frame_step: 1.5", "frame_step", "'1.5'");
+  expect_refusal("buffer: 1", "buffer", "from 2 to 1000000");
+  expect_refusal("save_period: 0", "save_period", "0.01");
+  expect_refusal("idle_timeout: -1", "idle_timeout", "'-1'");
+  expect_refusal("drain_timeout: .inf", "drain_timeout", "inf");
+  expect_refusal("warn_after: soon", "warn_after", "'soon'");
+  expect_refusal("record_parameters: /detector", "record_parameters", "list");
+  expect_refusal("input: a.bag", "input", "map");
+  expect_refusal("frame_steps: 3", "frame_steps", "did you mean 'frame_step'");
   test::expectError<ConfigError>([] { read("[1, 2]"); }, {"/evaluator", "map"});
 }
 

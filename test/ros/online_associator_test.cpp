@@ -48,6 +48,7 @@ TEST(OnlineAssociator, PairsFramesAStepApart) {
   Methods methods;
   methods.frame_step = 3;
   std::vector<LineSet> truth;
+  truth.reserve(frames.size());
   for (const SequenceFrame& frame : frames) {
     truth.push_back(groundTruthOf(frame));
   }

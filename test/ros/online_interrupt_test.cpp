@@ -31,6 +31,8 @@ class EvaluationTimes {
               times_.push_back(Clock::now());
             })) {}
   ~EvaluationTimes() { subscriber_.shutdown(); }
+  EvaluationTimes(const EvaluationTimes&) = delete;
+  EvaluationTimes& operator=(const EvaluationTimes&) = delete;
 
   std::size_t countBefore(Clock::time_point limit) const {
     const std::lock_guard<std::mutex> lock(mutex_);

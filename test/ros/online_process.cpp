@@ -63,12 +63,13 @@ std::size_t listenersOf(const std::string& node, const std::string& topic) {
 
 Process::Process(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) {
     arguments.push_back(const_cast<char*>(word.c_str()));
   }
   arguments.push_back(nullptr);
   const pid_t parent = getpid();
-  pid_ = fork();
+  pid_ = fork();  // NOLINT(cppcoreguidelines-prefer-member-initializer): its arguments come first
   if (pid_ < 0) {
     throw std::runtime_error("cannot start " + command.front());
   }

@@ -17,6 +17,7 @@ using test::expectError;
 
 std::vector<std::string> namesOf(const std::vector<PluginInfo>& infos) {
   std::vector<std::string> names;
+  names.reserve(infos.size());
   for (const PluginInfo& info : infos) names.push_back(info.name);
   return names;
 }

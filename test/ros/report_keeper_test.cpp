@@ -50,6 +50,7 @@ TEST(ReportKeeper, NodesOfTheSameSecondHaveFoldersOfTheirOwn) {
     }));
   }
   std::vector<std::unique_ptr<ReportKeeper>> keepers;
+  keepers.reserve(starts.size());
   std::set<fs::path> folders;
   for (auto& start : starts) {
     keepers.push_back(start.get());
