@@ -84,6 +84,7 @@ Report PassEvaluation::report(bool complete) const {
   report.matches_source = matches_source_;
   report.matches_lines_source = matches_lines_source_;
   report.detection_frames = evaluator_.detection().frames();
+  report.detection_dropped = evaluator_.detection().dropped();
   report.scored = evaluator_.detection().scored();
   report.detection = evaluator_.detectionEntries();
   report.spatial_spread = evaluator_.spread().share();
