@@ -114,6 +114,7 @@ Report PassEvaluation::report(bool complete) const {
       continue;
     }
     FrameRecord record = entry.record;
+    entry.figures.restore(evaluator_.detection().settings(), &record);
     if (complete && record.state == FrameState::kWaiting) {
       record.state = stateByWhatIsMissing(record.lines.has_value());
     }
