@@ -2,13 +2,13 @@
 // image.
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmark/real_input.h"
 #include "evolin_ros/dataset/frame.h"
 
 namespace evolin::benchmark_frames {
@@ -34,18 +34,13 @@ inline cv::Mat drawnImage(int shift) {
 /// Six frames, grey.
 inline std::vector<Frame> load() {
   std::vector<Frame> frames;
-  const char* const shared = std::getenv("EVOLIN_SHARED");
+  const std::filesystem::path folder = benchmark_input::realInput("data/icl_nuim_lr_sample/rgb");
   for (int i = 0; i < 6; ++i) {
     Frame frame;
     frame.name = "000" + std::to_string(i);
-    if (shared != nullptr) {
-      const std::filesystem::path file = std::filesystem::path(shared) / "data" /
-                                         "icl_nuim_lr_sample" / "rgb" / (frame.name + ".png");
-      frame.image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-    }
-    if (frame.image.empty()) {
-      frame.image = drawnImage(2 * i);
-    }
+    frame.image = folder.empty()
+                      ? drawnImage(2 * i)
+                      : cv::imread((folder / (frame.name + ".png")).string(), cv::IMREAD_GRAYSCALE);
     frames.push_back(frame);
   }
   return frames;

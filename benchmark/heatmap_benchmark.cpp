@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/real_input.h"
 #include "evolin_ros/dataset/csv.h"
 #include "evolin_ros/metrics/heatmap.h"
 #include "test/support/random_lines.h"
-#include "test/support/shared_data.h"
 
 namespace {
 
@@ -42,15 +42,14 @@ FrameData makeFrame(int true_lines, int near_lines, int other_lines) {
 }
 
 FrameData denseFrame(const std::string& stem) {
-  if (evolin::test::sharedFolder().empty()) {
+  const std::filesystem::path set = evolin::benchmark_input::realInput("data/golden/sets/timing");
+  if (set.empty()) {
     FrameData frame = makeFrame(80, 350, 50);
     for (int i = 0; i < 20; ++i) {
       frame.thresholds.push_back(0.05 * i);
     }
     return frame;
   }
-  const std::filesystem::path set =
-      evolin::test::sharedFolder() / "data" / "golden" / "sets" / "timing";
   const std::string file = stem + ".csv";
   return {evolin::readScoredLinesCsv(set / "scored_lines" / "lines" / file,
                                      set / "scored_lines" / "scores" / file),
@@ -59,10 +58,11 @@ FrameData denseFrame(const std::string& stem) {
 }
 
 FrameData livingRoomFrame() {
-  if (evolin::test::sharedFolder().empty()) {
+  const std::filesystem::path sample =
+      evolin::benchmark_input::realInput("data/icl_nuim_lr_sample");
+  if (sample.empty()) {
     return makeFrame(57, 100, 17);
   }
-  const std::filesystem::path sample = evolin::test::sharedFolder() / "data" / "icl_nuim_lr_sample";
   return {evolin::readLinesCsv(sample / "predictions" / "unscored" / "0000.csv"),
           evolin::readLinesCsv(sample / "gt_lines" / "0000.csv"),
           {}};

@@ -4,11 +4,11 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "benchmark/real_input.h"
 #include "evolin_ros/dataset/camera_file.h"
 #include "evolin_ros/dataset/csv.h"
 #include "evolin_ros/dataset/image_file.h"
@@ -80,10 +80,8 @@ Sequence makeSequence() {
 
 const Sequence& sequence() {
   static const Sequence kSequence = [] {
-    const char* shared = std::getenv("EVOLIN_SHARED");
-    return shared == nullptr || *shared == '\0'
-               ? makeSequence()
-               : readTimingSet(std::filesystem::path(shared) / "data/golden/sets/timing");
+    const std::filesystem::path set = evolin::benchmark_input::realInput("data/golden/sets/timing");
+    return set.empty() ? makeSequence() : readTimingSet(set);
   }();
   return kSequence;
 }

@@ -100,6 +100,16 @@ PublishedEntry entryFor(const std::string& name, const VectorizedSetting& settin
   return entry;
 }
 
+/// Lines may be there and yet not count.
+ClassificationWords wordsFor(const VectorizedMetrics& metrics) {
+  ClassificationWords words = detectionWords();
+  if (metrics.dropped() > 0) {
+    words.nothing_predicted = "the protocol drops all " + std::to_string(metrics.dropped()) +
+                              " detected lines (see docs/METRICS.md)";
+  }
+  return words;
+}
+
 double orNan(const std::optional<double>& value) {
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -119,7 +129,7 @@ void addRankingEntries(const VectorizedMetrics& metrics, const EvaluateOptions& 
   for (std::size_t setting = 0; setting < metrics.settings().size(); ++setting) {
     PublishedEntry area = entryFor("average_precision", metrics.settings()[setting]);
     area.value = orNan(values[setting]);
-    area.undefined = whyUndefined(metrics.classification(setting), detectionWords());
+    area.undefined = whyUndefined(metrics.classification(setting), wordsFor(metrics));
     if (!intervals.empty()) {
       area.confidence_interval = intervals[setting];
     }
@@ -135,9 +145,11 @@ void addClassificationEntries(const VectorizedMetrics& metrics,
                               const std::optional<double>& score_threshold,
                               const EvaluateOptions& options,
                               std::vector<PublishedEntry>* entries) {
-  ClassificationWords words = detectionWords();
+  ClassificationWords words = wordsFor(metrics);
   if (score_threshold) {
-    words.nothing_predicted = "no line has a score above the threshold";
+    words.nothing_predicted =
+        metrics.dropped() == 0 ? "no line has a score above the threshold"
+                               : "no line that the protocol keeps has a score above the threshold";
   }
   for (std::size_t setting = 0; setting < metrics.settings().size(); ++setting) {
     PublishedEntry prototype = entryFor("", metrics.settings()[setting]);

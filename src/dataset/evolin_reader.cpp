@@ -1,6 +1,10 @@
 // EVOLIN folders: images and lists by row, as the benchmark's published scripts read them.
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
@@ -109,6 +113,25 @@ void pairDepthByStem(const std::vector<fs::path>& depths, SequencePlan* plan) {
   }
 }
 
+// Rows say nothing of the image that they belong to, so that one too many or too few would shift
+// them all in silence.
+void requirePoseOfEveryImage(const fs::path& file, std::size_t poses, int offset,
+                             const SequencePlan& plan) {
+  const auto images = static_cast<std::int64_t>(plan.frames.size());
+  const auto rows = static_cast<std::int64_t>(poses);
+  if (rows == images || (rows > 0 && rows == images + offset)) {
+    return;
+  }
+  std::string text = std::to_string(poses) + " poses for " + std::to_string(images) +
+                     (plan.image_list.empty() ? " images" : " images of " + plan.image_list) +
+                     ", expected one each";
+  if (offset != 0) {
+    text += ", or " + std::to_string(std::abs(static_cast<std::int64_t>(offset))) +
+            (offset > 0 ? " more" : " fewer") + " (pose offset " + std::to_string(offset) + ")";
+  }
+  throw ParseError(file.string(), 0, text);
+}
+
 }  // namespace
 
 SequencePlan planEvolinSequence(const fs::path& folder, const SequenceOptions& options) {
@@ -136,7 +159,10 @@ SequencePlan planEvolinSequence(const fs::path& folder, const SequenceOptions& o
     pairDepthByStem(listImages(folder / "depth"), &plan);
   }
   if (fs::exists(folder / "poses.txt")) {
-    assignPosesByRow(readPoseRows(folder / "poses.txt"), options.pose_offset.value_or(0), &plan);
+    const std::vector<Pose> poses = readPoseRows(folder / "poses.txt");
+    const int offset = options.pose_offset.value_or(0);
+    requirePoseOfEveryImage(folder / "poses.txt", poses.size(), offset, plan);
+    assignPosesByRow(poses, offset, &plan);
   }
   return plan;
 }

@@ -133,7 +133,7 @@ EvaluationUpdate PassEvaluation::takeLines(LineSet lines) {
     setState(&entry, FrameState::kDropped);
     return update;
   }
-  entry.lines = std::move(lines);
+  entry.lines = std::make_shared<const LineSet>(std::move(lines));
   hold(stamp);
   evaluateFrame(&entry, &update);
   followTracks();
@@ -153,7 +153,7 @@ EvaluationUpdate PassEvaluation::addGroundTruth(LineSet ground_truth) {
     setState(&entry, FrameState::kDropped);
     return update;
   }
-  entry.ground_truth = std::move(ground_truth);
+  entry.ground_truth = std::make_shared<const LineSet>(std::move(ground_truth));
   hold(stamp);
   evaluateFrame(&entry, &update);
   evaluatePairsOf(stamp, &update);
@@ -211,7 +211,7 @@ EvaluationUpdate PassEvaluation::addResult(const EvaluationResult& result) {
   }
   evaluator_.addHeatmap(heatmap);
   if (heatmap.scored != false) {
-    entries_.at(heatmap.stamp).record.heatmap = heatmap.counts;
+    entries_.at(heatmap.stamp).figures.keepHeatmap(heatmap.counts);
   }
   update.heatmaps.push_back(heatmap);
   return update;
@@ -252,6 +252,7 @@ void PassEvaluation::evaluateFrame(Entry* entry, EvaluationUpdate* update) {
   }
   entry->lines.reset();
   update->frames.push_back(entry->record);
+  entry->figures.keepDetection(&entry->record);
 }
 
 void PassEvaluation::scoreFrame(Entry* entry, EvaluationUpdate* update) {
@@ -285,7 +286,7 @@ void PassEvaluation::hold(Stamp stamp) {
   }
   Entry& oldest = entries_.at(*held_.begin());
   if (oldest.record.state == FrameState::kWaiting) {
-    setState(&oldest, stateByWhatIsMissing(oldest.lines.has_value()));
+    setState(&oldest, stateByWhatIsMissing(oldest.lines != nullptr));
   }
   oldest.lines.reset();
   oldest.ground_truth.reset();

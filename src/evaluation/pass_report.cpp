@@ -84,6 +84,7 @@ Report PassEvaluation::report(bool complete) const {
   report.matches_source = matches_source_;
   report.matches_lines_source = matches_lines_source_;
   report.detection_frames = evaluator_.detection().frames();
+  report.detection_dropped = evaluator_.detection().dropped();
   report.scored = evaluator_.detection().scored();
   report.detection = evaluator_.detectionEntries();
   report.spatial_spread = evaluator_.spread().share();
@@ -113,6 +114,7 @@ Report PassEvaluation::report(bool complete) const {
       continue;
     }
     FrameRecord record = entry.record;
+    entry.figures.restore(evaluator_.detection().settings(), &record);
     if (complete && record.state == FrameState::kWaiting) {
       record.state = stateByWhatIsMissing(record.lines.has_value());
     }

@@ -45,7 +45,7 @@ void PassEvaluation::follow(TrackedLines lines, const Entry& entry, TrackFollowe
 /// What later frames can need of one that has left the buffer and is followed: nothing.
 void PassEvaluation::letGo(Entry* entry) {
   if (entry->released && (entry->followed || !wants(MetricFamily::kTracks))) {
-    entry->carried_ids = {};
+    entry->carried_ids = std::vector<std::int64_t>();  // {} would keep the memory
   }
 }
 

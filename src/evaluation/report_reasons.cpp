@@ -60,7 +60,10 @@ std::string whyNoAveragePrecision(const Report& report, const DetectionEntry& en
     return "no frame was evaluated";
   }
   if (entry.counts.predicted == 0) {
-    return "no lines were detected";
+    return report.detection_dropped == 0
+               ? "no lines were detected"
+               : "the protocol drops all " + std::to_string(report.detection_dropped) +
+                     " detected lines (see docs/METRICS.md)";
   }
   return report.scored ? "no lines are annotated" : "the lines carry no scores";
 }

@@ -39,12 +39,13 @@ class ExactMatcher {
     const auto start = static_cast<std::uint32_t>(pixels_.size());
     Pixel pixel;
     pixel.first_arc = arcs_.size();
-    ground_truth_.set().forEachNear(grid_, cell, [this, &pixel](Cell near, std::uint32_t squared) {
-      const Arc arc{ground_truth_.index(near), squared};
-      arcs_.push_back(arc);
-      pixel.value = std::max(pixel.value, sites_[arc.site].value - weights_[squared]);
-      return true;
-    });
+    ground_truth_.forEachNear(
+        grid_, cell, [this, &pixel](std::uint32_t near, std::uint32_t squared) {
+          const Arc arc{near, squared};
+          arcs_.push_back(arc);
+          pixel.value = std::max(pixel.value, sites_[arc.site].value - weights_[squared]);
+          return true;
+        });
     pixel.end_arc = arcs_.size();
     pixels_.push_back(pixel);
     if (pixel.value > 0) {

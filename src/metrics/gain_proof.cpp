@@ -21,15 +21,19 @@
 // They are sought in weights rounded to whole units, and the rounding ends up in the s. The bound
 // itself is computed from exact weights, so nothing depends on how the prices were found.
 //
-// Where it fails, the choice of predicted pixels may be at fault: of a level's pixels beyond what
+// Neither need be the best there is. The matching given may serve as N, and its s shrink as the
+// search for prices goes on: it is broken off where they are small enough, mostly half-way.
+//
+// Where all that fails, the choice of predicted pixels may be at fault: of a level's pixels beyond what
 // can be matched, the matching may have left out those that would be cheap. N remains a matching of
-// most pairs at every level when such a pixel takes the place of a dear one of the same level, for
-// as long as all can be matched at once. The bound is tried again after a handful of exchanges.
+// most pairs at every level when such a pixel takes the place of a dear one of the same level and
+// part, for as long as all can be matched at once. The bound is tried again after a handful of exchanges.
 #include "gain_proof.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "disjoint_parts.h"
 #include "price_search.h"
@@ -65,24 +69,41 @@ class GainProof {
   }
 
   std::vector<std::uint32_t> run(const Deadline& deadline) {
-    setAsideLightParts();
     PriceSearch search(&lists_, sites_, std::clamp(free_cost_, 1.0, kMostExpensive) * kPriceLimit,
                        deadline);
-    if (!bidders_.empty()) {
-      search.run(bidders_);
-      setAsideProvenParts(search);
+    std::vector<Part> unproven;
+    for (Part& part : heavyParts()) {
+      if (!proveInPassing(part, &search) && !proveByCheapest(part, &search)) {
+        unproven.push_back(std::move(part));
+      }
     }
-    for (int round = 0; round < kExchangeRounds && exchange(&search); ++round) {
-      setAsideProvenParts(search);
+    if (!unproven.empty()) {
+      listSpares(search, &unproven);
     }
-    std::vector<std::uint32_t> unproven;
-    for (const std::uint32_t bidder : bidders_) {
-      unproven.push_back(matching_.partners[bidder]);
+    std::vector<std::uint32_t> sites;
+    for (Part& part : unproven) {
+      if (!proveByExchanges(&part, &search)) {
+        for (const std::uint32_t bidder : part.bidders) {
+          sites.push_back(matching_.partners[bidder]);
+        }
+      }
     }
-    return unproven;
+    return sites;
   }
 
  private:
+  /// A predicted pixel without partner that might take the place of a bidder.
+  struct Spare {
+    double cost;  ///< least w + c
+    Cell cell;
+  };
+
+  /// A connected part of the graph.
+  struct Part {
+    std::vector<std::uint32_t> bidders;      ///< numbers of predicted pixels of the matching
+    std::vector<std::vector<Spare>> spares;  ///< by level, dearest first
+  };
+
   void listArcs(const Deadline& deadline) {
     const auto reach = static_cast<std::size_t>(grid_.reach());
     lengths_.resize(reach * reach + 1);
@@ -99,13 +120,12 @@ class GainProof {
         deadline.check();
       }
       std::uint32_t root = parts_.find(matching_.partners[bidder]);
-      ground_truth_.set().forEachNear(grid_, matching_.predicted[bidder],
-                                      [&](Cell cell, std::uint32_t squared) {
-                                        const std::uint32_t site = ground_truth_.index(cell);
-                                        lists_.arcs.emplace_back(site, units_[squared]);
-                                        root = parts_.unite(root, site);
-                                        return true;
-                                      });
+      ground_truth_.forEachNear(grid_, matching_.predicted[bidder],
+                                [&](std::uint32_t site, std::uint32_t squared) {
+                                  lists_.arcs.emplace_back(site, units_[squared]);
+                                  root = parts_.unite(root, site);
+                                  return true;
+                                });
       ends[bidder] = lists_.arcs.size();
     }
     const Arc* begin = lists_.arcs.data();
@@ -120,65 +140,61 @@ class GainProof {
     return lengths_[grid_.squaredDistance(bidder_cells_[bidder], ground_truth_.cells()[site])];
   }
 
-  /// A predicted pixel without partner that might take the place of a bidder.
-  struct Spare {
-    double cost;  ///< least w + c
-    Cell cell;
-  };
-
-  /// By level: the unmatched pixels of parts without proof, dearest first. None that would link
-  /// two parts.
-  std::vector<std::vector<Spare>> listSpares(const PriceSearch& search) {
+  /// None that would link two parts.
+  void listSpares(const PriceSearch& search, std::vector<Part>* parts) {
     CellSet matched(grid_);
     for (const Cell cell : matching_.predicted) {
       matched.insert(cell);
     }
-    std::vector<bool> wanted(sites_);
-    for (const std::uint32_t bidder : bidders_) {
-      wanted[parts_.find(matching_.partners[bidder])] = true;
+    std::vector<Part*> wanted(sites_, nullptr);
+    for (Part& part : *parts) {
+      wanted[parts_.find(matching_.partners[part.bidders.front()])] = &part;
+      part.spares.resize(added_.size());
     }
-    std::vector<std::vector<Spare>> spares(added_.size());
     for (std::size_t level = 0; level < added_.size(); ++level) {
       for (const Cell cell : added_[level]) {
         if (matched.contains(cell)) {
           continue;
         }
-        std::uint32_t part = kNone;
+        Part* part = nullptr;
         bool fits = true;
         double cost = std::numeric_limits<double>::infinity();
-        ground_truth_.set().forEachNear(grid_, cell, [&](Cell near, std::uint32_t squared) {
-          const std::uint32_t site = ground_truth_.index(near);
-          const std::uint32_t root = parts_.find(site);
-          fits = wanted[root] && (part == kNone || part == root);
-          part = root;
+        ground_truth_.forEachNear(grid_, cell, [&](std::uint32_t site, std::uint32_t squared) {
+          Part* const there = wanted[parts_.find(site)];
+          fits = there != nullptr && (part == nullptr || part == there);
+          part = there;
           cost = std::min(cost, lengths_[squared] + search.price(site));
           return fits;
         });
         if (fits) {
-          spares[level].push_back({cost, cell});
+          part->spares[level].push_back({cost, cell});
         }
       }
-      std::sort(spares[level].begin(), spares[level].end(),
-                [](const Spare& a, const Spare& b) { return a.cost > b.cost; });
+      for (Part& part : *parts) {
+        std::sort(part.spares[level].begin(), part.spares[level].end(),
+                  [](const Spare& a, const Spare& b) { return a.cost > b.cost; });
+      }
     }
-    return spares;
+  }
+
+  bool proveByExchanges(Part* part, PriceSearch* search) {
+    bool proven = false;
+    for (int round = 0; round < kExchangeRounds && !proven && exchange(part, search); ++round) {
+      proven = isProven(*part, *search,
+                        [search](std::uint32_t bidder) { return search->chosen(bidder); });
+    }
+    return proven;
   }
 
   /// Puts cheap unmatched pixels in the place of dear bidders of the same level, and so makes N
   /// another matching of most pairs at every level. False when there are none.
-  bool exchange(PriceSearch* search) {
-    if (bidders_.empty()) {
-      return false;
-    }
-    if (spares_.empty()) {
-      spares_ = listSpares(*search);
-    }
+  bool exchange(Part* part, PriceSearch* search) {
     struct Dear {
       double cost;
       std::uint32_t bidder;
     };
     std::vector<Dear> dear;
-    for (const std::uint32_t bidder : bidders_) {
+    for (const std::uint32_t bidder : part->bidders) {
       const std::uint32_t chosen = search->chosen(bidder);
       dear.push_back({chosen == kNone ? std::numeric_limits<double>::infinity()
                                       : length(bidder, chosen) + search->price(chosen),
@@ -191,7 +207,7 @@ class GainProof {
       const auto level = static_cast<std::size_t>(
           std::upper_bound(matching_.sizes.begin(), matching_.sizes.end(), each.bidder) -
           matching_.sizes.begin());
-      std::vector<Spare>& spares = spares_[level];
+      std::vector<Spare>& spares = part->spares[level];
       if (spares.empty() || spares.back().cost > each.cost - kLeastSaving * free_cost_) {
         continue;
       }
@@ -204,70 +220,114 @@ class GainProof {
         }
       }
     }
-    search->lowerPrices();
+    search->lowerPrices(part->bidders);
     return count > 0;
   }
 
   std::vector<Arc> arcsOf(Cell predicted) const {
     std::vector<Arc> arcs;
-    ground_truth_.set().forEachNear(grid_, predicted, [&](Cell cell, std::uint32_t squared) {
-      arcs.emplace_back(ground_truth_.index(cell), units_[squared]);
+    ground_truth_.forEachNear(grid_, predicted, [&](std::uint32_t site, std::uint32_t squared) {
+      arcs.emplace_back(site, units_[squared]);
       return true;
     });
     return arcs;
   }
 
-  /// Bidders are the predicted pixels of parts that still lack a proof; claim 1 above.
-  void setAsideLightParts() {
+  /// The parts that claim 1 above leaves.
+  std::vector<Part> heavyParts() {
     std::vector<double> weights(sites_, 0);
-    for (std::uint32_t bidder = 0; bidder < matching_.predicted.size(); ++bidder) {
+    const auto bidders = static_cast<std::uint32_t>(matching_.predicted.size());
+    for (std::uint32_t bidder = 0; bidder < bidders; ++bidder) {
       const std::uint32_t partner = matching_.partners[bidder];
       weights[parts_.find(partner)] += length(bidder, partner);
     }
-    for (std::uint32_t bidder = 0; bidder < matching_.predicted.size(); ++bidder) {
-      if (weights[parts_.find(matching_.partners[bidder])] >= free_cost_ - kMargin) {
-        bidders_.push_back(bidder);
-      }
-    }
-  }
-
-  /// Claim 2 above, in exact weights.
-  void setAsideProvenParts(const PriceSearch& search) {
-    struct Extremes {
-      double highest = -std::numeric_limits<double>::infinity();
-      double lowest = std::numeric_limits<double>::infinity();
-      double excess = 0;
-    };
-    std::vector<Extremes> extremes(sites_);
-    for (const std::uint32_t bidder : bidders_) {
+    std::vector<Part> heavy;
+    std::vector<std::uint32_t> numbers(sites_, kNone);
+    for (std::uint32_t bidder = 0; bidder < bidders; ++bidder) {
       const std::uint32_t part = parts_.find(matching_.partners[bidder]);
-      Extremes& found = extremes[part];
-      const std::uint32_t chosen = search.chosen(bidder);
-      if (chosen == kNone) {
-        found.excess = std::numeric_limits<double>::infinity();
+      if (weights[part] < free_cost_ - kMargin) {
         continue;
       }
-      const double price = search.price(chosen);
-      const double cost = length(bidder, chosen) + price;
-      double least = cost;
-      search.forEachCheaper(bidder, [&](std::uint32_t site) {
-        least = std::min(least, length(bidder, site) + search.price(site));
-      });
-      found.highest = std::max(found.highest, cost);
-      found.lowest = std::min(found.lowest, price);
-      found.excess += cost - least;
+      if (numbers[part] == kNone) {
+        numbers[part] = static_cast<std::uint32_t>(heavy.size());
+        heavy.emplace_back();
+      }
+      heavy[numbers[part]].bidders.push_back(bidder);
     }
-    std::vector<std::uint32_t> remaining;
-    for (const std::uint32_t bidder : bidders_) {
-      const std::uint32_t part = parts_.find(matching_.partners[bidder]);
-      const Extremes& found = extremes[part];
-      // An infinite excess may come with an infinite difference: the sum must not be NaN.
-      if (found.excess >= free_cost_ ||
-          found.highest - found.lowest + found.excess >= free_cost_ - kMargin) {
-        remaining.push_back(bidder);
+    return heavy;
+  }
+
+  /// With the matching as it was given, and prices only as good as it takes.
+  bool proveInPassing(const Part& part, PriceSearch* search) const {
+    search->bid(part.bidders);
+    bool worth_it = seemsProven(part, *search);
+    // A look costs about as much as the searches between two of them.
+    for (std::size_t steps = 0; !worth_it && search->anyWaits();) {
+      steps += search->placeNext();
+      if (steps >= part.bidders.size()) {
+        steps = 0;
+        search->updateOffers();
+        worth_it = seemsProven(part, *search);
       }
     }
-    bidders_.swap(remaining);
+    return worth_it && isProven(part, *search, [this](std::uint32_t bidder) {
+             return matching_.partners[bidder];
+           });
+  }
+
+  /// With the cheapest matching of the predicted pixels. After proveInPassing().
+  bool proveByCheapest(const Part& part, PriceSearch* search) const {
+    while (search->anyWaits()) {
+      search->placeNext();
+    }
+    search->lowerPrices(part.bidders);
+    return isProven(part, *search,
+                    [search](std::uint32_t bidder) { return search->chosen(bidder); });
+  }
+
+  /// What claim 2 above needs.
+  struct Bound {
+    double highest = -std::numeric_limits<double>::infinity();
+    double lowest = std::numeric_limits<double>::infinity();
+    double excess = 0;
+
+    /// A pair of the matching, and the least that any pair of its predicted pixel costs.
+    void add(double length, double price, double least) {
+      highest = std::max(highest, length + price);
+      lowest = std::min(lowest, price);
+      excess += length + price - least;
+    }
+    double gain() const { return highest - lowest + excess; }
+  };
+
+  /// Claim 2 above for the matching as it was given, by what the search knows of the least costs.
+  bool seemsProven(const Part& part, const PriceSearch& search) const {
+    Bound bound;
+    for (const std::uint32_t bidder : part.bidders) {
+      const std::uint32_t site = matching_.partners[bidder];
+      bound.add(length(bidder, site), search.price(site),
+                search.offer(bidder) - PriceSearch::kRounding);
+    }
+    return bound.gain() < free_cost_ - kMargin;
+  }
+
+  /// Claim 2 above, in exact weights; partnerOf(bidder) is that of the matching, kNone: it has
+  /// none.
+  template <typename PartnerOf>
+  bool isProven(const Part& part, const PriceSearch& search, const PartnerOf& partnerOf) const {
+    Bound bound;
+    for (const std::uint32_t bidder : part.bidders) {
+      const std::uint32_t partner = partnerOf(bidder);
+      if (partner == kNone) {
+        return false;
+      }
+      double least = std::numeric_limits<double>::infinity();
+      search.forEachCheapest(bidder, [&](std::uint32_t site) {
+        least = std::min(least, length(bidder, site) + search.price(site));
+      });
+      bound.add(length(bidder, partner), search.price(partner), least);
+    }
+    return bound.gain() < free_cost_ - kMargin;
   }
 
   const PixelGrid& grid_;
@@ -281,8 +341,6 @@ class GainProof {
   std::vector<Cell> bidder_cells_;
   ArcLists lists_;
   DisjointParts parts_;  ///< of sites
-  std::vector<std::uint32_t> bidders_;
-  std::vector<std::vector<Spare>> spares_;  ///< by level
 };
 
 }  // namespace

@@ -31,6 +31,7 @@ class NestedMatcher {
         deadline_(deadline),
         free_(ground_truth.set()),
         live_(ground_truth.set()),
+        standing_(grid),
         owners_(ground_truth.size(), kNone),
         partners_(predicted_.size(), kNone),
         visitors_(ground_truth.size(), kNone),
@@ -39,9 +40,7 @@ class NestedMatcher {
   void addLevel(const std::vector<Cell>& added) {
     std::vector<Cell> waiting = added;
     matchNearestFirst(&waiting);
-    while (augmentMany(&waiting)) {
-      deadline_.check();
-    }
+    augment(waiting);
     result_.sizes.push_back(result_.predicted.size());
   }
 
@@ -91,50 +90,94 @@ class NestedMatcher {
   }
 
   /// Grows trees of pairs in turn from all waiting pixels at once. A tree that comes to a free
-  /// ground-truth pixel is an augmenting path and grows no more. False when none does: what was
-  /// reached is dead then.
-  bool augmentMany(std::vector<Cell>* waiting) {
+  /// ground-truth pixel is an augmenting path and falls. What it held is offered to the trees that
+  /// stand, which grow on, until none comes to a free pixel any more: what they hold is dead then.
+  void augment(const std::vector<Cell>& waiting) {
     reached_.clear();
-    bool any = false;
-    std::uint32_t from = kNone;
-    std::uint32_t root = kNone;
-    const auto visit = [&](Cell cell, std::uint32_t) {
+    for (const Cell cell : waiting) {
+      const std::uint32_t root = predicted_.index(cell);
+      roots_[root] = root;
+      standing_.insert(cell);
+      grow(root);
+    }
+    std::size_t next = 0;
+    while (true) {
+      deadline_.check();
+      fallen_ = false;
+      for (; next < reached_.size(); ++next) {
+        const std::uint32_t site = ground_truth_.index(reached_[next]);
+        const std::uint32_t root = roots_[visitors_[site]];
+        if (stands(root)) {
+          const std::uint32_t owner = owners_[site];
+          roots_[owner] = root;
+          standing_.insert(predicted_.cells()[owner]);
+          grow(owner);
+        }
+      }
+      if (!fallen_) {
+        break;
+      }
+      next = regrow();
+    }
+    for (const Cell cell : waiting) {
+      standing_.erase(cell);
+    }
+    for (const Cell cell : reached_) {
+      standing_.erase(predicted_.cells()[owners_[ground_truth_.index(cell)]]);
+    }
+  }
+
+  /// A tree stands until its root is matched.
+  bool stands(std::uint32_t root) const { return partners_[root] == kNone; }
+
+  /// Takes what is live within reach of a predicted pixel into its tree.
+  void grow(std::uint32_t from) {
+    const std::uint32_t root = roots_[from];
+    live_.forEachNear(grid_, predicted_.cells()[from], [&](Cell cell, std::uint32_t) {
       live_.erase(cell);
       reached_.push_back(cell);
-      visitors_[ground_truth_.index(cell)] = from;
+      const std::uint32_t site = ground_truth_.index(cell);
+      visitors_[site] = from;
       if (!free_.contains(cell)) {
         return true;
       }
       free_.erase(cell);
       join(predicted_.cells()[root]);
-      flipPath(ground_truth_.index(cell), root);
-      any = true;
+      flipPath(site, root);
+      fallen_ = true;
       return false;
-    };
-    for (const Cell cell : *waiting) {
-      from = root = predicted_.index(cell);
-      roots_[root] = root;
-      live_.forEachNear(grid_, cell, visit);
-    }
-    for (std::size_t next = 0; next < reached_.size(); ++next) {
-      const std::uint32_t site = ground_truth_.index(reached_[next]);
-      root = roots_[visitors_[site]];
-      if (partners_[root] == kNone) {
-        from = owners_[site];
-        roots_[from] = root;
-        live_.forEachNear(grid_, predicted_.cells()[from], visit);
+    });
+  }
+
+  /// Clears away the trees that fell; what they held and a standing tree has within reach goes to
+  /// that tree. Returns the place in reached_ from which on trees have yet to grow.
+  std::size_t regrow() {
+    std::vector<Cell> released;
+    std::size_t kept = 0;
+    for (const Cell cell : reached_) {
+      const std::uint32_t site = ground_truth_.index(cell);
+      if (stands(roots_[visitors_[site]])) {
+        reached_[kept++] = cell;
+      } else {
+        released.push_back(cell);
+        standing_.erase(predicted_.cells()[owners_[site]]);
       }
     }
-    if (any) {
-      live_.insertAll(reached_);
-      waiting->erase(std::remove_if(waiting->begin(), waiting->end(),
-                                    [this](Cell cell) {
-                                      return partners_[predicted_.index(cell)] != kNone ||
-                                             !live_.anyNear(grid_, cell);
-                                    }),
-                     waiting->end());
+    reached_.resize(kept);
+    for (const Cell cell : released) {
+      bool taken = false;
+      standing_.forEachNear(grid_, cell, [&](Cell near, std::uint32_t) {
+        visitors_[ground_truth_.index(cell)] = predicted_.index(near);
+        taken = true;
+        return false;
+      });
+      if (taken) {
+        reached_.push_back(cell);
+      } else {
+        live_.insert(cell);
+      }
     }
-    return any;
+    return kept;
   }
 
   /// Gives every ground-truth pixel on the way back from `site` to the one that reached it, who
@@ -154,12 +197,14 @@ class NestedMatcher {
   const IndexedCells predicted_;  ///< of all levels
   const Deadline& deadline_;
   CellSet free_;                         ///< unmatched ground-truth cells
-  CellSet live_;                         ///< ground-truth cells that are not dead
+  CellSet live_;                         ///< ground-truth cells neither dead nor in a tree
+  CellSet standing_;                     ///< predicted cells of the trees that stand
   std::vector<std::uint32_t> owners_;    ///< of ground-truth pixels: number of predicted pixel
   std::vector<std::uint32_t> partners_;  ///< of predicted pixels: number of ground-truth pixel
   std::vector<std::uint32_t> visitors_;  ///< of ground-truth pixels: who reached them last
   std::vector<std::uint32_t> roots_;  ///< of predicted pixels: of the tree that they were last in
-  std::vector<Cell> reached_;
+  std::vector<Cell> reached_;         ///< ground-truth cells in trees
+  bool fallen_ = false;               ///< some tree, since the last look
   NestedMatching result_;
 };
 

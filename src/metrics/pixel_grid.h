@@ -49,6 +49,7 @@ class PixelGrid {
 
  private:
   friend class CellSet;
+  friend class IndexedCells;
 
   // With the margin; a column has 1 << column_bits_ words.
   Cell cellAt(Cell x, Cell y) const {
@@ -122,6 +123,43 @@ class CellSet {
   /// when it returns false. `visit` may erase the cell that it was called with.
   template <typename Visit>
   void forEachNear(const PixelGrid& grid, Cell centre, const Visit& visit) const {
+    forEachRowNear(grid, centre, [&](const Row& row) {
+      for (std::uint64_t bits = row.bits; bits != 0; bits &= bits - 1) {
+        const auto bit = static_cast<Cell>(__builtin_ctzll(bits));
+        const Cell place = row.shift + bit;  // from the left word's first cell on
+        const Cell cell =
+            row.word * kBits + ((place / kBits * kBits) << grid.column_bits_) + place % kBits;
+        if (!visit(cell, row.squared[bit])) {
+          return false;
+        }
+      }
+      return true;
+    });
+  }
+
+ private:
+  static constexpr Cell kBits = PixelGrid::kBits;
+  static constexpr Cell kRows = 32;  ///< of a disc, looked at together
+
+  /// What a set holds of a disc in one row and one column of the grid or two.
+  struct Row {
+    std::uint64_t bits;            ///< not 0
+    Cell word;                     ///< in which the first bit is
+    Cell shift;                    ///< of the first bit in it
+    const std::uint32_t* squared;  ///< distance of each bit from the centre
+  };
+
+  static std::uint64_t bit(Cell cell) { return std::uint64_t{1} << (cell % kBits); }
+
+  /// 64 bits from bit `shift` of `left` on; `right` follows. Two shifts, as one by 64 is undefined.
+  static std::uint64_t window(std::uint64_t left, std::uint64_t right, Cell shift) {
+    return (left >> shift) | (right << 1U << (63 - shift));
+  }
+
+  /// Calls visit(row) for the rows of the disc around `centre` in which the set has cells; stops
+  /// when it returns false.
+  template <typename Visit>
+  void forEachRowNear(const PixelGrid& grid, Cell centre, const Visit& visit) const {
     const Cell side = grid.side_;
     const std::uint64_t* mask = grid.masks_.data();
     const std::uint32_t* squared = grid.squared_.data();
@@ -152,14 +190,9 @@ class CellSet {
         }
         for (Cell i = 0; i < count; ++i) {
           const Cell row = filled[i];
-          for (std::uint64_t bits = found[row]; bits != 0; bits &= bits - 1) {
-            const auto bit = static_cast<Cell>(__builtin_ctzll(bits));
-            const Cell place = shift + bit;  // from the left word's first cell on
-            const Cell cell = begin - shift + (first + row) * kBits +
-                              ((place / kBits * kBits) << grid.column_bits_) + place % kBits;
-            if (!visit(cell, squared[(first + row) * kBits + bit])) {
-              return;
-            }
+          if (!visit(Row{found[row], begin / kBits + first + row, shift,
+                         squared + std::size_t{first + row} * kBits})) {
+            return;
           }
         }
       }
@@ -167,17 +200,6 @@ class CellSet {
       squared += side * kBits;
       begin += kBits << grid.column_bits_;
     }
-  }
-
- private:
-  static constexpr Cell kBits = PixelGrid::kBits;
-  static constexpr Cell kRows = 32;  ///< of a disc, looked at together
-
-  static std::uint64_t bit(Cell cell) { return std::uint64_t{1} << (cell % kBits); }
-
-  /// 64 bits from bit `shift` of `left` on; `right` follows. Two shifts, as one by 64 is undefined.
-  static std::uint64_t window(std::uint64_t left, std::uint64_t right, Cell shift) {
-    return (left >> shift) | (right << 1U << (63 - shift));
   }
 
   friend class IndexedCells;
@@ -201,6 +223,29 @@ class IndexedCells {
     const std::uint64_t below = CellSet::bit(cell) - 1;
     const Cell word = cell / CellSet::kBits;
     return ranks_[word] + countBits(set_.words_[word] & below);
+  }
+
+  /// Calls visit(number, squared distance) for the cells within the reach of `centre`; stops when
+  /// it returns false.
+  template <typename Visit>
+  void forEachNear(const PixelGrid& grid, Cell centre, const Visit& visit) const {
+    // A row of the disc has no gap: its cells in one word have numbers that follow each other.
+    set_.forEachRowNear(grid, centre, [&](const CellSet::Row& row) {
+      const auto visitBits = [&](std::uint64_t bits, Cell word) {
+        const auto place = row.shift + static_cast<Cell>(__builtin_ctzll(bits));
+        std::uint32_t number = index(word * CellSet::kBits + place % CellSet::kBits);
+        for (; bits != 0; bits &= bits - 1, ++number) {
+          if (!visit(number, row.squared[__builtin_ctzll(bits)])) {
+            return false;
+          }
+        }
+        return true;
+      };
+      const std::uint64_t left = row.bits & (~std::uint64_t{0} >> row.shift);
+      const std::uint64_t right = row.bits ^ left;
+      return (left == 0 || visitBits(left, row.word)) &&
+             (right == 0 || visitBits(right, row.word + (Cell{1} << grid.column_bits_)));
+    });
   }
 
  private:

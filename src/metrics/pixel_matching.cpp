@@ -73,12 +73,12 @@ std::vector<std::size_t> recount(const PixelGrid& grid, const IndexedCells& grou
     for (const Cell cell : added[level]) {
       std::uint32_t one = 0;
       bool first = true;
-      ground_truth.set().forEachNear(grid, cell, [&](Cell near, std::uint32_t) {
+      ground_truth.forEachNear(grid, cell, [&](std::uint32_t near, std::uint32_t) {
         if (first) {
-          one = ground_truth.index(near);
+          one = near;
           first = false;
         } else {
-          parts.unite(one, ground_truth.index(near));
+          parts.unite(one, near);
         }
         return true;
       });

@@ -31,21 +31,31 @@ PriceSearch::PriceSearch(ArcLists* arcs, std::size_t sites, double most, const D
       offers_(arcs->ranges.size()),
       chosen_(arcs->ranges.size(), kNoArc) {}
 
-void PriceSearch::run(const std::vector<std::uint32_t>& bidders) {
+void PriceSearch::bid(const std::vector<std::uint32_t>& bidders) {
   bidders_ = bidders;
-  std::vector<std::uint32_t> waiting = bidders_;
-  bidWithoutStep(&waiting);
-  if (waiting.size() > kFewBidders) {
+  waiting_ = bidders;
+  bidWithoutStep();
+  if (waiting_.size() > kFewBidders) {
     for (const std::int32_t step : kAuctionSteps) {
-      auction(step * kUnits, &waiting);
+      auction(step * kUnits);
     }
-    bidWithoutStep(&waiting);
+    bidWithoutStep();
   }
-  for (const std::uint32_t bidder : waiting) {
-    deadline_.check();
-    search(bidder, limit_);
+  std::reverse(waiting_.begin(), waiting_.end());
+}
+
+std::size_t PriceSearch::placeNext() {
+  deadline_.check();
+  const std::uint32_t bidder = waiting_.back();
+  waiting_.pop_back();
+  search(bidder, limit_);
+  return settled_.size();
+}
+
+void PriceSearch::updateOffers() {
+  for (const std::uint32_t bidder : waiting_) {
+    offers_[bidder] = bestOffer(bidder).cost;
   }
-  lowerPrices();
 }
 
 bool PriceSearch::replace(std::uint32_t bidder, std::vector<Arc> arcs) {
@@ -101,16 +111,17 @@ std::uint32_t PriceSearch::take(std::uint32_t bidder, Arc arc) {
 
 /// Everybody takes his cheapest site and raises its price to where the second cheapest is as
 /// good; who is driven out goes on. Keeps all s at 0, but gets stuck where offers tie.
-void PriceSearch::bidWithoutStep(std::vector<std::uint32_t>* waiting) {
+void PriceSearch::bidWithoutStep() {
   std::vector<std::uint32_t> stuck;
   for (int round = 0; round < kRounds; ++round) {
     stuck.clear();
-    for (std::uint32_t bidder : *waiting) {
+    for (std::uint32_t bidder : waiting_) {
       for (int times = 0; bidder != kNone; ++times) {
         Offer offer = bestOffer(bidder);
         const bool tied = offer.cost == offer.second && sites_[offer.best.site()].owner != kNone;
         if ((tied && !preferFreeSite(bidder, &offer)) || offer.second > limit_ ||
             times == kDisplacements) {
+          offers_[bidder] = offer.cost;
           stuck.push_back(bidder);
           break;
         }
@@ -119,7 +130,7 @@ void PriceSearch::bidWithoutStep(std::vector<std::uint32_t>* waiting) {
         bidder = take(bidder, offer.best);
       }
     }
-    waiting->swap(stuck);
+    waiting_.swap(stuck);
   }
 }
 
@@ -138,12 +149,12 @@ bool PriceSearch::preferFreeSite(std::uint32_t bidder, Offer* offer) const {
 
 /// Bids above the second best offer by a step, which unties; then takes back what became too dear.
 /// Who is driven out bids at once: he looks at much the same sites, which are at hand.
-void PriceSearch::auction(Price step, std::vector<std::uint32_t>* waiting) {
+void PriceSearch::auction(Price step) {
   std::size_t bids = 0;
   const std::size_t most = kBidsPerBidder * bidders_.size();
   bool goes_on = true;
-  for (std::size_t next = 0; next < waiting->size() && goes_on; ++next) {
-    for (std::uint32_t bidder = (*waiting)[next]; bidder != kNone && goes_on; ++bids) {
+  for (std::size_t next = 0; next < waiting_.size() && goes_on; ++next) {
+    for (std::uint32_t bidder = waiting_[next]; bidder != kNone && goes_on; ++bids) {
       if (bids % kBidsPerCheck == 0) {
         deadline_.check();
       }
@@ -154,12 +165,12 @@ void PriceSearch::auction(Price step, std::vector<std::uint32_t>* waiting) {
       bidder = take(bidder, offer.best);
     }
   }
-  *waiting = takeBackDearChoices();
+  takeBackDearChoices();
 }
 
-/// Takes back every choice that is not the cheapest; all bidders without choice.
-std::vector<std::uint32_t> PriceSearch::takeBackDearChoices() {
-  std::vector<std::uint32_t> waiting;
+/// Takes back every choice that is not the cheapest; all bidders without choice wait.
+void PriceSearch::takeBackDearChoices() {
+  waiting_.clear();
   for (const std::uint32_t bidder : bidders_) {
     offers_[bidder] = bestOffer(bidder).cost;
     const Word chosen = chosen_[bidder];
@@ -168,10 +179,9 @@ std::vector<std::uint32_t> PriceSearch::takeBackDearChoices() {
       chosen_[bidder] = kNoArc;
     }
     if (chosen_[bidder] == kNoArc) {
-      waiting.push_back(bidder);
+      waiting_.push_back(bidder);
     }
   }
-  return waiting;
 }
 
 /// Dijkstra's search from a bidder without site to the nearest site without owner, nearer than
@@ -259,10 +269,9 @@ void PriceSearch::flipPath(std::uint32_t start, std::uint32_t goal) {
   } while (bidder != start);
 }
 
-/// Gives all sites with owners the lowest prices, from 0, at which every choice remains the
-/// cheapest: an auction overshoots. By a search in the slack of all arcs from all sites at once.
-void PriceSearch::lowerPrices() {
-  for (const std::uint32_t bidder : bidders_) {
+/// An auction overshoots. By a search in the slack of all arcs from all sites at once.
+void PriceSearch::lowerPrices(const std::vector<std::uint32_t>& bidders) {
+  for (const std::uint32_t bidder : bidders) {
     if (chosen_[bidder] != kNoArc) {
       const std::uint32_t index = Arc(chosen_[bidder]).site();
       sites_[index].distance = std::min(priceOf(index), limit_);
@@ -286,13 +295,14 @@ void PriceSearch::lowerPrices() {
     }
   }
   queue_.clear();
-  for (std::size_t index = 0; index < sites_.size(); ++index) {
-    if (sites_[index].distance != kFar) {
-      prices_[index] -= toWord(sites_[index].distance);
+  for (const std::uint32_t bidder : bidders) {
+    if (chosen_[bidder] != kNoArc) {
+      Site& site = sites_[Arc(chosen_[bidder]).site()];
+      prices_[Arc(chosen_[bidder]).site()] -= toWord(site.distance);
+      site.distance = kFar;
     }
-    sites_[index].distance = kFar;
   }
-  for (const std::uint32_t bidder : bidders_) {
+  for (const std::uint32_t bidder : bidders) {
     if (chosen_[bidder] != kNoArc) {
       offers_[bidder] = cost(Arc(chosen_[bidder]));
     }

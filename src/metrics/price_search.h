@@ -49,8 +49,8 @@ struct ArcLists {
 class PriceSearch {
  public:
   /// Takes note of `arcs`, which must outlive it. Prices above `most` pixels are not looked for.
-  /// Throws DeadlineError from run() and replace() when `deadline`, which must outlive it too,
-  /// passes.
+  /// Throws DeadlineError from bid(), placeNext() and replace() when `deadline`, which must outlive
+  /// it too, passes.
   PriceSearch(ArcLists* arcs, std::size_t sites, double most, const Deadline& deadline);
 
   /// The weight of an arc of so many pixels, up to 255.
@@ -58,15 +58,25 @@ class PriceSearch {
     return static_cast<std::uint32_t>(pixels * kUnits + 0.5);
   }
 
-  /// Finds prices and choices for `bidders`, who share no site with any others. The prices of
-  /// chosen sites are the lowest, from 0, at which the choices remain the cheapest. Call it once.
-  void run(const std::vector<std::uint32_t>& bidders);
+  /// Lets `bidders`, who share no site with any others, bid. Who gets no site waits. Call it once
+  /// for a bidder.
+  void bid(const std::vector<std::uint32_t>& bidders);
+
+  /// Whether any of the last bid()'s bidders waits.
+  bool anyWaits() const { return !waiting_.empty(); }
+  /// Finds a choice for one who waits. Returns the number of sites that it had to look from.
+  std::size_t placeNext();
+
+  void updateOffers();
+
+  /// Gives the choices of `bidders`, who share no site with any others, the lowest prices, from 0,
+  /// at which they remain the cheapest.
+  void lowerPrices(const std::vector<std::uint32_t>& bidders);
 
   /// Puts the predicted pixel with `arcs` in the place of `bidder` if that
   /// makes all choices together cheaper. The choices remain the cheapest at their prices; to have
   /// the lowest such prices again, call lowerPrices().
   bool replace(std::uint32_t bidder, std::vector<Arc> arcs);
-  void lowerPrices();
 
   /// A site that nobody else has chosen; kNone: there is none within the price limit.
   std::uint32_t chosen(std::uint32_t bidder) const {
@@ -74,12 +84,15 @@ class PriceSearch {
   }
   /// In pixels.
   double price(std::uint32_t site) const { return static_cast<double>(priceOf(site)) / kUnits; }
+  /// In pixels: what a bidder's cheapest site costs him, rounding apart; of one who waits, what it
+  /// did cost at the last bid or updateOffers(), which is no more.
+  double offer(std::uint32_t bidder) const { return static_cast<double>(offers_[bidder]) / kUnits; }
 
-  /// Calls visit(site) for all sites that may cost a bidder with a choice less than that, rounding
-  /// considered: two weights in units are wrong by up to one half each.
+  /// Calls visit(site) for all sites that may be the cheapest for a bidder, rounding considered:
+  /// two weights in units are wrong by up to one half each.
   template <typename Visit>
-  void forEachCheaper(std::uint32_t bidder, const Visit& visit) const {
-    const Price most = cost(Arc(chosen_[bidder])) + 1;
+  void forEachCheapest(std::uint32_t bidder, const Visit& visit) const {
+    const Price most = bestOffer(bidder).cost + 1;
     for (const Arc arc : lists_.ranges[bidder]) {
       if (cost(arc) <= most) {
         visit(arc.site());
@@ -88,12 +101,14 @@ class PriceSearch {
   }
 
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  static constexpr double kRounding = 0.5 / 32;  ///< of a weight, in pixels
 
  private:
   using Price = std::int32_t;  ///< in units
   using Word = std::uint64_t;  ///< a price in the place of an arc's weight
 
   static constexpr Price kUnits = 32;  ///< a pixel
+  static_assert(kRounding * kUnits == 0.5, "weights are rounded to the nearest unit");
   static constexpr Word kNoArc = ~Word{0};
 
   /// A site, and what the current search knows of it.
@@ -117,10 +132,10 @@ class PriceSearch {
   Price cost(Arc arc) const { return toPrice(arc.word() + prices_[arc.site()]); }
   Offer bestOffer(std::uint32_t bidder) const;
   std::uint32_t take(std::uint32_t bidder, Arc arc);
-  void bidWithoutStep(std::vector<std::uint32_t>* waiting);
+  void bidWithoutStep();
   bool preferFreeSite(std::uint32_t bidder, Offer* offer) const;
-  void auction(Price step, std::vector<std::uint32_t>* waiting);
-  std::vector<std::uint32_t> takeBackDearChoices();
+  void auction(Price step);
+  void takeBackDearChoices();
   void search(std::uint32_t start, Price within);
   std::uint32_t nextSite(Price nearest, Price* distance);
   void finishSearch(std::uint32_t start, std::uint32_t goal, Price nearest);
@@ -132,7 +147,8 @@ class PriceSearch {
   BucketQueue queue_;
   std::vector<Word> prices_;  ///< of sites
   std::vector<Site> sites_;
-  std::vector<std::uint32_t> bidders_;
+  std::vector<std::uint32_t> bidders_;  ///< of the last bid()
+  std::vector<std::uint32_t> waiting_;
   std::vector<Price> offers_;  ///< least cost of each bidder at current prices
   std::vector<Word> chosen_;   ///< arc of each bidder, or kNoArc
 

@@ -70,6 +70,7 @@ void VectorizedMetrics::addFrame(std::uint32_t frame_number, const std::string& 
   }
   predictions_.insert(predictions_.end(), added.begin(), added.end());
   frames_.insert(place, {frame_number, static_cast<std::uint32_t>(truth.size())});
+  dropped_ += predicted.size() - lines.size();
   if (!predicted.empty()) {
     scored_ = scored;
   }
@@ -185,6 +186,7 @@ void VectorizedMetrics::merge(const VectorizedMetrics& other) {
   if (other.scored_) {
     scored_ = other.scored_;
   }
+  dropped_ += other.dropped_;
 }
 
 void VectorizedMetrics::mergeFrames(const std::vector<FrameCount>& others) {

@@ -9,6 +9,27 @@
 
 namespace evolin::ros_shell {
 
+namespace {
+
+/// Of these lists an empty one says that there are none, as its absence does.
+YAML::Node withoutEmptyThresholds(const YAML::Node& parameters) {
+  if (!parameters.IsMap()) {
+    return parameters;
+  }
+  YAML::Node rest(YAML::NodeType::Map);
+  for (const auto& entry : parameters) {
+    const std::string name = entry.first.Scalar();
+    const bool may_be_empty =
+        name == "heatmap_score_thresholds" || name == "repeatability_score_thresholds";
+    if (!may_be_empty || !entry.second.IsSequence() || entry.second.size() > 0) {
+      rest[name] = entry.second;
+    }
+  }
+  return rest;
+}
+
+}  // namespace
+
 EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::string& owner) {
   constexpr double kLongest = 1e6;
   EvaluatorOptions options;
@@ -32,7 +53,7 @@ EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::s
   int bootstrap_seed = static_cast<int>(options.bootstrap.seed);
   int best_lines = static_cast<int>(motion.best_localization.count);
   int depth_buffer = static_cast<int>(motion.depth_buffer);
-  ParameterReader reader(parameters, owner);
+  ParameterReader reader(withoutEmptyThresholds(parameters), owner);
   reader.read("metrics", &metrics);
   reader.read("protocol", &protocol, {"evolin", "paper"});
   reader.read("distance_thresholds", &vectorized.distance_thresholds,

@@ -261,6 +261,22 @@ TEST_F(BrokenInput, NothingDetected) {
             std::string::npos);
 }
 
+TEST_F(BrokenInput, OnlyLinesThatTheProtocolDrops) {
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const std::string stem = "000" + std::to_string(frame);
+    folder_.write("lines/" + stem + ".csv", "5,5,30,5\n5,5,5,30\n");
+    folder_.write("scores/" + stem + ".csv", "0.9\n0.8\n");
+  }
+  expectInTable("vectorized",
+                "no value for average_precision: the protocol drops all 8 detected lines");
+  expectInTable(
+      "vectorized",
+      "no value for precision, fscore: no line that the protocol keeps has a score above");
+  expectInTable("heatmap", "precision");  // every line is drawn
+  EXPECT_EQ(tableOf("heatmap").find("no line"), std::string::npos) << tableOf("heatmap");
+  EXPECT_EQ(tableOf("vectorized", {"--protocol", "paper"}).find("drops"), std::string::npos);
+}
+
 TEST_F(BrokenInput, NoPoseFound) {
   for (const std::string pair : {"0000_0001", "0001_0002", "0002_0003"}) {
     folder_.write("pairs/" + pair + ".csv", "0,0\n");

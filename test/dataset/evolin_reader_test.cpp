@@ -86,6 +86,33 @@ TEST(EvolinReader, PairsPosesByRowAndShiftsThem) {
   EXPECT_EQ(reader->counts().missing_poses, 1U);
 }
 
+TEST(EvolinReader, RefusesAnotherNumberOfPosesThanOfImages) {
+  const EvolinFolder folder;
+  SequenceOptions options;
+  const std::string row = "1 0 0 0 0 0 0 1\n";
+  folder.write("poses.txt", row + row);
+  expectError<ParseError>([&] { openSequence(folder.path(), options); },
+                          {"poses.txt", "2 poses for 3 images", "one each"});
+  options.pose_offset = -1;
+  EXPECT_EQ(readAll(folder.path(), options).size(), 3U);
+  folder.write("poses.txt", row + row + row + row);
+  expectError<ParseError>([&] { openSequence(folder.path(), options); },
+                          {"4 poses for 3 images", "1 fewer (pose offset -1)"});
+  options.pose_offset = 1;
+  EXPECT_EQ(readAll(folder.path(), options).size(), 3U);
+  folder.write("poses.txt", "");
+  expectError([&] { openSequence(folder.path(), {}); }, {"poses.txt", "0 poses for 3 images"});
+}
+
+TEST(EvolinReader, CountsPosesByTheListOfImagesWhereThereIsOne) {
+  const EvolinFolder folder;
+  folder.write("stamps.txt",
+               "5.5 images/0000.png\n6.5 images/0001.png\n7.5 images/0002.png\n"
+               "8.5 images/0003.png\n");
+  expectError<ParseError>([&] { openSequence(folder.path(), {}); },
+                          {"3 poses for 4 images of stamps.txt"});
+}
+
 TEST(EvolinReader, PairsDepthByListElseByStem) {
   const EvolinFolder folder;
   folder.addDepth();

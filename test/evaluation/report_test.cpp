@@ -292,6 +292,8 @@ TEST(ReportMarkdown, SaysWhyThereIsNoAveragePrecision) {
   };
   EXPECT_EQ(first_reason({line(10, 10, 50, 30)}, handTruth(0).lines), "the lines carry no scores");
   EXPECT_EQ(first_reason({}, handTruth(0).lines), "no lines were detected");
+  EXPECT_EQ(first_reason({line(10, 10, 50, 10), line(20, 10, 20, 60)}, handTruth(0).lines),
+            "the protocol drops all 2 detected lines (see docs/METRICS.md)");
   EXPECT_EQ(first_reason(handLines(0).lines, {}), "no lines are annotated");
   const Report empty = PassEvaluation().report(true);
   EXPECT_EQ(whyNoAveragePrecision(empty, empty.detection[0]), "no frame was evaluated");

@@ -57,6 +57,24 @@ TEST(VectorizedMetrics, EvolinDropsHorizontalAndVerticalPredictionsAndPaperKeeps
   expectCounts(countsOf(predicted, truth, Protocol::kPaper, kStructural5), 2, 2, 2);
 }
 
+TEST(VectorizedMetrics, CountsWhatTheProtocolDrops) {
+  const LineSegments predicted = {segment(10, 10, 50, 10), segment(10, 20, 10, 60),
+                                  segment(70, 70, 70, 70), segment(1, 2, 3, 4)};
+  const auto dropped = [&](Protocol protocol) {
+    VectorizedMetrics all(test::optionsOf(protocol));
+    VectorizedMetrics other = all;
+    all.addFrame(0, "0000", kUnit, predicted, {}, false);
+    other.addFrame(1, "0001", kUnit, predicted, {}, false);
+    all.merge(other);
+    const std::size_t count = all.dropped();
+    all.reset();
+    EXPECT_EQ(all.dropped(), 0U);
+    return count;
+  };
+  EXPECT_EQ(dropped(Protocol::kEvolin), 6U);
+  EXPECT_EQ(dropped(Protocol::kPaper), 2U);
+}
+
 TEST(VectorizedMetrics, HorizontalGroundTruthStays) {
   expectCounts(countsOf({segment(10, 10, 50, 10.1)}, {segment(10, 10, 50, 10)}, Protocol::kEvolin,
                         kOrthogonal5),

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/evaluation/stream_evaluator.h"
 #include "test/support/expect_error.h"
@@ -28,6 +31,93 @@ TEST(EvaluatorOptions, HaveTheDocumentedDefaults) {
   EXPECT_EQ(options.drain_timeout, 5);
   EXPECT_EQ(options.warn_after, 3);
   EXPECT_TRUE(options.record_parameters.empty());
+}
+
+YAML::Node shippedFile() {
+  return YAML::LoadFile(std::string(EVOLIN_SOURCE_DIR) + "/config/evaluator.yaml");
+}
+
+/// As the message about an unknown name lists them.
+std::set<std::string> knownParameters() {
+  try {
+    read("{no_parameter: 0}");
+  } catch (const ConfigError& error) {
+    const std::string head = "Known parameters: ";
+    std::string list = error.what();
+    list = list.substr(list.find(head) + head.size());
+    std::set<std::string> names;
+    for (std::size_t comma = list.find(", "); comma != std::string::npos; comma = list.find(", ")) {
+      names.insert(list.substr(0, comma));
+      list = list.substr(comma + 2);
+    }
+    names.insert(list);
+    return names;
+  }
+  return {};
+}
+
+TEST(EvaluatorOptions, AllStandInTheShippedFile) {
+  std::set<std::string> expected = knownParameters();
+  ASSERT_GT(expected.size(), 30U);
+  EXPECT_EQ(expected.erase("diagnostics"), 1U) << "has a file of its own";
+  EXPECT_EQ(expected.erase("input"), 1U) << "is set by the player";
+  std::set<std::string> shipped;
+  for (const auto& entry : shippedFile()) {
+    shipped.insert(entry.first.Scalar());
+  }
+  EXPECT_EQ(shipped, expected);
+}
+
+TEST(EvaluatorOptions, OfTheShippedFileAreTheDefaults) {
+  const EvaluatorOptions shipped = readEvaluatorOptions(shippedFile(), "/evaluator");
+  const EvaluatorOptions plain = readEvaluatorOptions(YAML::Node(), "/evaluator");
+  const EvaluationOptions& a = shipped.pass.evaluation;
+  const EvaluationOptions& b = plain.pass.evaluation;
+  EXPECT_EQ(shipped.pass.families, plain.pass.families);
+  EXPECT_EQ(a.vectorized.protocol, b.vectorized.protocol);
+  EXPECT_EQ(a.vectorized.distance_thresholds, b.vectorized.distance_thresholds);
+  EXPECT_EQ(a.heatmap.score_thresholds, b.heatmap.score_thresholds);
+  EXPECT_EQ(a.heatmap.frame_budget, b.heatmap.frame_budget);
+  EXPECT_EQ(a.pose_errors.success_rotation, b.pose_errors.success_rotation);
+  EXPECT_EQ(a.pose_errors.success_translation, b.pose_errors.success_translation);
+  EXPECT_EQ(a.carry_over_gate, b.carry_over_gate);
+  EXPECT_EQ(shipped.pass.auc_thresholds, plain.pass.auc_thresholds);
+  EXPECT_EQ(shipped.pass.buffer, plain.pass.buffer);
+  EXPECT_EQ(shipped.pass.frame_step, plain.pass.frame_step);
+  EXPECT_EQ(shipped.pass.matches_from_ids, plain.pass.matches_from_ids);
+  const MotionOptions& c = shipped.pass.motion;
+  const MotionOptions& d = plain.pass.motion;
+  EXPECT_EQ(c.repeatabilities.frame_steps, d.repeatabilities.frame_steps);
+  EXPECT_EQ(c.repeatability_score_thresholds, d.repeatability_score_thresholds);
+  EXPECT_EQ(c.one_to_one.max_distance, d.one_to_one.max_distance);
+  EXPECT_EQ(c.one_to_one.max_angle, d.one_to_one.max_angle);
+  EXPECT_EQ(c.one_to_one.min_overlap, d.one_to_one.min_overlap);
+  EXPECT_EQ(c.best_localization.count, d.best_localization.count);
+  EXPECT_EQ(c.pose_method.strategy, d.pose_method.strategy);
+  EXPECT_EQ(c.pose_method.seed, d.pose_method.seed);
+  EXPECT_EQ(c.max_time_difference, d.max_time_difference);
+  EXPECT_EQ(c.depth_buffer, d.depth_buffer);
+  EXPECT_EQ(shipped.pose_from, plain.pose_from);
+  EXPECT_EQ(shipped.world_frame, plain.world_frame);
+  EXPECT_EQ(shipped.depth_factor, plain.depth_factor);
+  EXPECT_EQ(shipped.task_queue, plain.task_queue);
+  EXPECT_EQ(shipped.bootstrap.resamples, plain.bootstrap.resamples);
+  EXPECT_EQ(shipped.bootstrap.block_length, plain.bootstrap.block_length);
+  EXPECT_EQ(shipped.bootstrap.seed, plain.bootstrap.seed);
+  EXPECT_EQ(shipped.output_dir, plain.output_dir);
+  EXPECT_EQ(shipped.save_period, plain.save_period);
+  EXPECT_EQ(shipped.idle_timeout, plain.idle_timeout);
+  EXPECT_EQ(shipped.drain_timeout, plain.drain_timeout);
+  EXPECT_EQ(shipped.warn_after, plain.warn_after);
+  EXPECT_EQ(shipped.health.period, plain.health.period);
+  EXPECT_EQ(shipped.record_parameters, plain.record_parameters);
+}
+
+TEST(EvaluatorOptions, ScoreThresholdsMayBeNone) {
+  const EvaluatorOptions none =
+      read("{heatmap_score_thresholds: [], repeatability_score_thresholds: []}");
+  EXPECT_TRUE(none.pass.evaluation.heatmap.score_thresholds.empty());
+  EXPECT_TRUE(none.pass.motion.repeatability_score_thresholds.empty());
 }
 
 TEST(EvaluatorOptions, AreReadOneByOne) {

@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "evolin_ros/evaluation/frame_figures.h"
 #include "evolin_ros/evaluation/id_matches.h"
 #include "evolin_ros/evaluation/inputs.h"
 #include "evolin_ros/evaluation/motion_evaluation.h"
@@ -137,15 +139,16 @@ class PassEvaluation {
  private:
   struct Entry {
     bool image = false;
-    std::optional<std::uint32_t> number;  ///< place of its lines among all lines by stamp
-    std::optional<LineSet> lines;         ///< until evaluated or released
-    std::optional<LineSet> ground_truth;  ///< until released
+    std::optional<std::uint32_t> number;          ///< place of its lines among all lines by stamp
+    std::shared_ptr<const LineSet> lines;         ///< until evaluated or released
+    std::shared_ptr<const LineSet> ground_truth;  ///< until released
     bool released = false;
     bool true_ids = false;                  ///< its ground truth has ids, or has no lines
     std::vector<std::int64_t> carried_ids;  ///< of ground truth, for the detected lines; until
                                             ///< released and followed
     bool followed = false;                  ///< its tracks are
-    FrameRecord record;
+    FrameRecord record;                     ///< without entries and heatmap
+    FrameFigures figures;                   ///< these
   };
   using PairKey = std::pair<Stamp, Stamp>;
 

@@ -207,6 +207,7 @@ struct Report {
   /// anywhere.
   std::optional<std::size_t> input_images;
   std::size_t detection_frames = 0;
+  std::size_t detection_dropped = 0;  ///< detected lines that the protocol drops
   bool scored = false;
   std::vector<DetectionEntry> detection;
   PairCounts pairs;

@@ -59,6 +59,9 @@ class VectorizedMetrics {
 
   std::size_t frames() const { return frames_.size(); }
 
+  /// Predictions that the protocol drops, over all frames; they are in no other figure.
+  std::size_t dropped() const { return dropped_; }
+
   /// False as long as only frames without predictions have been added.
   bool scored() const { return scored_.value_or(false); }
 
@@ -113,6 +116,7 @@ class VectorizedMetrics {
   std::vector<Prediction> predictions_;  ///< a frame's in a row, by row; frames in order of arrival
   std::vector<FrameCount> frames_;       ///< by rising number
   std::optional<bool> scored_;
+  std::size_t dropped_ = 0;
 };
 
 }  // namespace evolin
