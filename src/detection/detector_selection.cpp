@@ -4,17 +4,32 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/dataset/frame.h"
 #include "evolin_ros/dataset/image_file.h"
+#include "evolin_ros/geometry/clipping.h"
 
 namespace evolin {
 namespace {
 
 std::string text(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+/// Lines may be fitted a little beyond the outermost pixels.
+void clipToImage(cv::Size size, LineSegments* lines) {
+  const Rectangle image{-0.5, -0.5, size.width - 0.5, size.height - 0.5};
+  std::size_t kept = 0;
+  for (const LineSegment& line : *lines) {
+    const std::optional<LineSegment> inside = clipToRectangle(line, image);
+    if (inside && inside->length() > 0) {
+      (*lines)[kept++] = *inside;
+    }
+  }
+  lines->resize(kept);
 }
 
 }  // namespace
@@ -37,6 +52,7 @@ LineFilter::LineFilter(const DetectorSelection& selection) : mask_file_(selectio
 }
 
 LineSegments LineFilter::apply(LineSegments lines, cv::Size size, const std::string& owner) const {
+  clipToImage(size, &lines);
   if (!mask_.empty()) {
     if (mask_.size() != size) {
       throw Error(owner + ": the mask " + mask_file_ + " has " + text(mask_.size()) +

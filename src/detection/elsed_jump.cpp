@@ -39,11 +39,11 @@ void Drawing::bresenham(Pixel from, Pixel to) {
       return;
     }
     const int twice = 2 * error;
-    if (twice > -dy) {
+    if (twice >= -dy) {
       error -= dy;
       p.x += step_x;
     }
-    if (twice < dx) {
+    if (twice <= dx) {
       error += dx;
       p.y += step_y;
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
@@ -36,6 +37,19 @@ auto values(const OpenCvFldParameters& p) {
 auto values(const HoughPParameters& p) {
   return std::make_tuple(p.canny_threshold1, p.canny_threshold2, p.canny_aperture, p.rho, p.theta,
                          p.threshold, p.min_length, p.max_gap);
+}
+
+auto selectionValues(const DetectorSelection& s) {
+  return std::make_tuple(s.score_threshold, s.min_length, s.max_lines, s.mask);
+}
+
+auto values(const ElsedParameters& p) {
+  return std::tuple_cat(
+      std::make_tuple(p.kernel, p.sigma, p.gradient_threshold, p.anchor_threshold, p.scan_interval,
+                      p.min_line_length, p.line_fit_error, p.pixel_distance, p.max_outliers,
+                      p.junctions, p.junction_eigenvalues, p.junction_angle, p.validate,
+                      p.validation_threshold),
+      selectionValues(p.selection));
 }
 
 std::filesystem::path configFolder() {
@@ -74,11 +88,13 @@ TEST(ShippedDetectorConfig, FldHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvFld>("opencv_fld");
 }
 
+TEST(ShippedDetectorConfig, ElsedHoldsAllDefaults) { expectHoldsAllDefaults<Elsed>("elsed"); }
+
 TEST(ShippedDetectorConfig, HoughPHoldsAllDefaults) { expectHoldsAllDefaults<HoughP>("hough_p"); }
 
 TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
-  const std::set<std::string> tested = {"opencv_lsd.yaml", "opencv_edlines.yaml", "opencv_fld.yaml",
-                                        "hough_p.yaml"};
+  const std::set<std::string> tested = {"elsed.yaml", "opencv_lsd.yaml", "opencv_edlines.yaml",
+                                        "opencv_fld.yaml", "hough_p.yaml"};
   for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
     EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
   }

@@ -28,7 +28,8 @@ class LineFilter {
   /// Reads the mask. Throws Error naming the file when that is no image.
   explicit LineFilter(const DetectorSelection& selection);
 
-  /// The lines of an image of `size` that pass, in their order. Throws Error naming `owner`, the
+  /// The lines of an image of `size`, cut at the outer edges of its pixels, that pass, in their
+  /// order; never one of no length. Throws Error naming `owner`, the
   /// mask's file and both sizes where the mask has another size than the image.
   LineSegments apply(LineSegments lines, cv::Size size, const std::string& owner) const;
 
