@@ -4,6 +4,7 @@
 #include "benchmark/frames.h"
 #include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/lsd.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -45,6 +46,7 @@ void detectAsNew(benchmark::State& state) {
 
 BENCHMARK_TEMPLATE(detect, Elsed)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detectAsNew, Elsed)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, Lsd)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvLsd)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvEdLines)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvFld)->Unit(benchmark::kMillisecond);

@@ -38,11 +38,13 @@ class FieldBuilder {
   void sortSeeds(Field* field);
 
   LsdParameters parameters_;
-  float greatest_ = 0;
+  double weakest_ = 0;                // least gradient with an angle, grey levels a pixel
+  std::int32_t greatest_square_ = 0;  // of what squares_ holds
   cv::Mat smoothed_;
   cv::Mat scaled_;
-  std::vector<std::int32_t> unsorted_;
-  std::vector<std::uint32_t> bin_begins_;
+  std::vector<std::int32_t> squares_;  // of twice the gradient
+  std::vector<std::uint64_t> bins_of_weak_;
+  std::vector<std::uint64_t> keys_;
 };
 
 }  // namespace evolin::lsd

@@ -14,20 +14,13 @@ double square(double value) { return value * value; }
 
 }  // namespace
 
-double angleBetween(double a, double b) {
-  const double apart = std::abs(a - b);
-  return apart > 1.5 * kPi ? std::abs(apart - 2 * kPi) : apart;
-}
-
 double Rectangle::length() const { return std::hypot(x2 - x1, y2 - y1); }
 
 void RegionGrower::start(const Field& field) {
   field_ = &field;
-  used_.assign(field.size(), 0);
   // Nothing grows into pixels without a level line.
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    used_[i] = field.angles[i] == kNoAngle ? 1 : 0;
-  }
+  used_.assign(field.size(), 1);
+  for (const std::int32_t seed : field.seeds) used_[static_cast<std::size_t>(seed)] = 0;
   region_.clear();
 }
 
@@ -39,27 +32,26 @@ void RegionGrower::grow(std::int32_t seed, double tolerance) {
   angle_ = field_->angles[static_cast<std::size_t>(seed)];
   auto cosines = static_cast<float>(std::cos(angle_));
   auto sines = static_cast<float>(std::sin(angle_));
+  const auto take = [&](std::size_t i, std::int32_t x, std::int32_t y) {
+    const double angle = field_->angles[i];
+    if (angleBetween(angle_, angle) > tolerance) {
+      return;
+    }
+    used_[i] = 1;
+    region_.push_back({x, y});
+    cosines += std::cos(static_cast<float>(angle));
+    sines += std::sin(static_cast<float>(angle));
+    angle_ = cv::fastAtan2(sines, cosines) * kDegree;
+  };
+  // Neighbours in rows; the last row and column have no level lines, so only the first ones need
+  // care.
   for (std::size_t next = 0; next < region_.size(); ++next) {
     const RegionPixel p = region_[next];
-    const std::int32_t left = std::max(p.x - 1, 0);
-    const std::int32_t right = std::min(p.x + 1, width - 1);
-    const std::int32_t bottom = std::min(p.y + 1, field_->height - 1);
-    for (std::int32_t y = std::max(p.y - 1, 0); y <= bottom; ++y) {
-      for (std::int32_t x = left; x <= right; ++x) {
-        const std::size_t i = at({x, y});
-        if (used_[i] != 0) {
-          continue;
-        }
-        const double angle = field_->angles[i];
-        if (angleBetween(angle_, angle) > tolerance) {
-          continue;
-        }
-        used_[i] = 1;
-        region_.push_back({x, y});
-        cosines += std::cos(static_cast<float>(angle));
-        sines += std::sin(static_cast<float>(angle));
-        angle_ = cv::fastAtan2(sines, cosines) * kDegree;
-      }
+    for (std::int32_t y = std::max(p.y - 1, 0); y <= p.y + 1; ++y) {
+      const std::size_t i = at({p.x, y});
+      if (p.x > 0 && used_[i - 1] == 0) take(i - 1, p.x - 1, y);
+      if (used_[i] == 0) take(i, p.x, y);
+      if (used_[i + 1] == 0) take(i + 1, p.x + 1, y);
     }
   }
 }

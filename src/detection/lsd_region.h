@@ -1,6 +1,7 @@
 // Line support regions of LSD and the rectangles that approximate them.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -66,6 +67,9 @@ class RegionGrower {
 };
 
 /// |a - b| of two directions, radians, 0 to pi.
-double angleBetween(double a, double b);
+inline double angleBetween(double a, double b) {
+  const double apart = std::abs(a - b);
+  return apart > 1.5 * CV_PI ? std::abs(apart - 2 * CV_PI) : apart;
+}
 
 }  // namespace evolin::lsd

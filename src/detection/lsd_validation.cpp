@@ -130,15 +130,17 @@ void Validation::scanInWholePixels(const Rectangle& r) {
   });
   std::sort(corners.begin(), corners.end(),
             [](const Whole& a, const Whole& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  // From left to right; the highest goes first, the others keep their order.
+  // From left to right; the highest goes first, the others keep their order, but of two that are
+  // rightmost the upper one counts as right.
   const auto by_y = [](const Whole& a, const Whole& b) { return a.y < b.y; };
   const auto highest = std::min_element(corners.begin(), corners.end(), by_y);
   const int bottom = std::max_element(corners.begin(), corners.end(), by_y)->y;
   std::rotate(corners.begin(), highest, highest + 1);
   const Whole& top = corners[0];
   const Whole& left = corners[1];
-  const Whole& tail = corners[2];
-  const Whole& right = corners[3];
+  const bool tie = corners[2].x == corners[3].x;
+  const Whole& tail = corners[tie ? 3 : 2];
+  const Whole& right = corners[tie ? 2 : 3];
 
   // The published library divides whole numbers, and below the side corners takes the height of an
   // edge against the tail's x: rectangles lean and spread accordingly.

@@ -9,6 +9,7 @@
 
 #include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/lsd.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -52,6 +53,13 @@ auto values(const ElsedParameters& p) {
       selectionValues(p.selection));
 }
 
+auto values(const LsdParameters& p) {
+  return std::tuple_cat(
+      std::make_tuple(p.refine, p.scale, p.sigma_scale, p.quantization, p.angle_tolerance,
+                      p.log_eps, p.density_threshold, p.bins, p.compatible),
+      selectionValues(p.selection));
+}
+
 std::filesystem::path configFolder() {
   return std::filesystem::path(EVOLIN_SOURCE_DIR) / "config" / "detectors";
 }
@@ -76,6 +84,8 @@ void expectHoldsAllDefaults(const std::string& name) {
   EXPECT_EQ(keys.size(), std::tuple_size<std::decay_t<decltype(defaults)>>::value);
 }
 
+TEST(ShippedDetectorConfig, OwnLsdHoldsAllDefaults) { expectHoldsAllDefaults<Lsd>("lsd"); }
+
 TEST(ShippedDetectorConfig, LsdHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvLsd>("opencv_lsd");
 }
@@ -93,8 +103,8 @@ TEST(ShippedDetectorConfig, ElsedHoldsAllDefaults) { expectHoldsAllDefaults<Else
 TEST(ShippedDetectorConfig, HoughPHoldsAllDefaults) { expectHoldsAllDefaults<HoughP>("hough_p"); }
 
 TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
-  const std::set<std::string> tested = {"elsed.yaml", "opencv_lsd.yaml", "opencv_edlines.yaml",
-                                        "opencv_fld.yaml", "hough_p.yaml"};
+  const std::set<std::string> tested = {"elsed.yaml",          "lsd.yaml",        "opencv_lsd.yaml",
+                                        "opencv_edlines.yaml", "opencv_fld.yaml", "hough_p.yaml"};
   for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
     EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
   }
