@@ -2,7 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmark/frames.h"
+#include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/lsd.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -29,6 +31,22 @@ void detect(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(lines), benchmark::Counter::kAvgIterations);
 }
 
+/// With a new instance for every frame: no memory is warm.
+template <typename Detector>
+void detectAsNew(benchmark::State& state) {
+  const std::vector<Frame> frames = benchmark_frames::load();
+  std::size_t next = 0;
+  for (auto _ : state) {
+    Detector detector;
+    detector.configure(YAML::Node());
+    benchmark::DoNotOptimize(detector.detect(frames[next]));
+    next = (next + 1) % frames.size();
+  }
+}
+
+BENCHMARK_TEMPLATE(detect, Elsed)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detectAsNew, Elsed)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, Lsd)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvLsd)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvEdLines)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvFld)->Unit(benchmark::kMillisecond);

@@ -33,8 +33,8 @@ std::string typeName(const cv::Mat& image) {
 }  // namespace
 
 cv::Mat toGray(const cv::Mat& image) {
-  const std::string expectation = "expected an 8-bit image of 1 (grey) or 3 (BGR) channels";
-  if (image.empty()) throw Error("empty image: " + expectation);
+  const char* const expectation = "expected an 8-bit image of 1 (grey) or 3 (BGR) channels";
+  if (image.empty()) throw Error(std::string("empty image: ") + expectation);
   if (image.dims == 2 && image.type() == CV_8UC1) return image;
   if (image.dims == 2 && image.type() == CV_8UC3) {
     cv::Mat gray;

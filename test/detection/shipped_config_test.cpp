@@ -7,7 +7,9 @@
 #include <string>
 #include <tuple>
 
+#include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/lsd.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -38,6 +40,26 @@ auto values(const HoughPParameters& p) {
                          p.threshold, p.min_length, p.max_gap);
 }
 
+auto selectionValues(const DetectorSelection& s) {
+  return std::make_tuple(s.score_threshold, s.min_length, s.max_lines, s.mask);
+}
+
+auto values(const ElsedParameters& p) {
+  return std::tuple_cat(
+      std::make_tuple(p.kernel, p.sigma, p.gradient_threshold, p.anchor_threshold, p.scan_interval,
+                      p.min_line_length, p.line_fit_error, p.pixel_distance, p.max_outliers,
+                      p.junctions, p.junction_eigenvalues, p.junction_angle, p.validate,
+                      p.validation_threshold),
+      selectionValues(p.selection));
+}
+
+auto values(const LsdParameters& p) {
+  return std::tuple_cat(
+      std::make_tuple(p.refine, p.scale, p.sigma_scale, p.quantization, p.angle_tolerance,
+                      p.log_eps, p.density_threshold, p.bins, p.compatible),
+      selectionValues(p.selection));
+}
+
 std::filesystem::path configFolder() {
   return std::filesystem::path(EVOLIN_SOURCE_DIR) / "config" / "detectors";
 }
@@ -62,6 +84,8 @@ void expectHoldsAllDefaults(const std::string& name) {
   EXPECT_EQ(keys.size(), std::tuple_size<std::decay_t<decltype(defaults)>>::value);
 }
 
+TEST(ShippedDetectorConfig, OwnLsdHoldsAllDefaults) { expectHoldsAllDefaults<Lsd>("lsd"); }
+
 TEST(ShippedDetectorConfig, LsdHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvLsd>("opencv_lsd");
 }
@@ -74,11 +98,13 @@ TEST(ShippedDetectorConfig, FldHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvFld>("opencv_fld");
 }
 
+TEST(ShippedDetectorConfig, ElsedHoldsAllDefaults) { expectHoldsAllDefaults<Elsed>("elsed"); }
+
 TEST(ShippedDetectorConfig, HoughPHoldsAllDefaults) { expectHoldsAllDefaults<HoughP>("hough_p"); }
 
 TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
-  const std::set<std::string> tested = {"opencv_lsd.yaml", "opencv_edlines.yaml", "opencv_fld.yaml",
-                                        "hough_p.yaml"};
+  const std::set<std::string> tested = {"elsed.yaml",          "lsd.yaml",        "opencv_lsd.yaml",
+                                        "opencv_edlines.yaml", "opencv_fld.yaml", "hough_p.yaml"};
   for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
     EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
   }

@@ -35,7 +35,7 @@ TEST(PluginLoader, ListsOwnPluginsByName) {
   const std::vector<std::string> names = namesOf(detectors);
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
   for (const char* expected :
-       {"edlines", "fld", "hough_p", "lsd", "opencv_edlines", "opencv_fld", "opencv_lsd"}) {
+       {"edlines", "elsed", "fld", "hough_p", "lsd", "opencv_edlines", "opencv_fld", "opencv_lsd"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), expected), 1) << expected;
   }
   const std::vector<PluginInfo> associators = loader.listAssociators();

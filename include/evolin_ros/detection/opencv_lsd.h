@@ -20,7 +20,7 @@ struct OpenCvLsdParameters {
   int bins = 1024;                 ///< of the gradient's pseudo-ordering, 1 to 65536
 };
 
-/// Plug-in `opencv_lsd` (alias `lsd`). Score: -log10 of the number of false alarms. OpenCV 4.8
+/// Plug-in `opencv_lsd`. Score: -log10 of the number of false alarms. OpenCV 4.8
 /// changed how a rectangle's aligned points are counted: fewer lines than before, other scores.
 class OpenCvLsd : public LineDetector {
  public:
