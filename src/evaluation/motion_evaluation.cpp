@@ -327,6 +327,23 @@ void MotionEvaluation::settle(Stamp stamp, Node* node, MotionUpdate* update) {
   node->spatial.reset();
 }
 
+MotionWaiting MotionEvaluation::waiting() const {
+  MotionWaiting waiting;
+  auto node = settled_ ? nodes_.upper_bound(*settled_) : nodes_.begin();
+  for (; node != nodes_.end(); ++node) {
+    const State lines = node->second.detected.state;
+    if (lines == State::kAbsent || lines == State::kBad) {
+      continue;
+    }
+    if (node->second.pose_state == State::kWaiting) {
+      ++waiting.pose;
+    } else if (lines == State::kWaiting) {
+      ++waiting.depth;
+    }
+  }
+  return waiting;
+}
+
 void MotionEvaluation::scorePairs(Stamp stamp, const std::shared_ptr<const SpatialFrame>& frame,
                                   MotionUpdate* update) {
   const std::vector<int>& steps = options_.repeatabilities.frame_steps;

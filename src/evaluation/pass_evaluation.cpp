@@ -88,6 +88,7 @@ void PassEvaluation::setState(Entry* entry, FrameState state) {
 /// Equal scores are ranked by the frames' order in time, whatever order they arrive in.
 std::uint32_t PassEvaluation::placeOfLines(Stamp stamp) {
   std::uint32_t place = lines_seen_++;
+  lines_in_order_ = lines_in_order_ && (!newest_lines_ || stamp >= *newest_lines_);
   if (!newest_lines_ || stamp > *newest_lines_) {
     newest_lines_ = stamp;
     return place;

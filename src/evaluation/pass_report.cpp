@@ -38,6 +38,9 @@ CoverageCounts PassEvaluation::coverage() const {
   counts.no_depth = motion_.counts().no_depth;
   counts.no_pose = motion_.counts().no_pose;
   counts.bad_lines = motion_.counts().bad_lines;
+  const MotionWaiting waiting = motion_.waiting();
+  counts.waiting_depth = waiting.depth;
+  counts.waiting_pose = waiting.pose;
   return counts;
 }
 
@@ -60,7 +63,8 @@ bool PassEvaluation::waiting() const {
   for (const auto& [stamp, entry] : entries_) {
     const bool has_lines = entry.record.lines.has_value();
     const bool alone = !has_lines && !entry.record.ground_truth;
-    if (!has_lines && entry.record.state == FrameState::kWaiting &&
+    const bool passed_over = lines_in_order_ && newest_lines_ && stamp < *newest_lines_;
+    if (!has_lines && entry.record.state == FrameState::kWaiting && !passed_over &&
         !(alone && standsForAnother(stamp))) {
       return true;
     }
@@ -217,6 +221,8 @@ void PassEvaluation::fillRepeatability(const MotionEvaluation& motion, Report* r
   repeatability.best_count = options_.motion.best_localization.count;
   report->coverage.no_depth = motion.counts().no_depth;
   report->coverage.no_pose = motion.counts().no_pose;
+  report->coverage.waiting_depth = motion.waiting().depth;
+  report->coverage.waiting_pose = motion.waiting().pose;
   report->coverage.bad_lines = motion.counts().bad_lines;
   report->coverage.heatmap_skipped = coverage_.heatmap_skipped;
   report->coverage.pose_skipped = coverage_.pose_skipped;

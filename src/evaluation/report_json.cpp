@@ -37,6 +37,8 @@ Json coverageJson(const Report& report) {
                  {"skipped", coverage.skipped},
                  {"no_depth", coverage.no_depth},
                  {"no_pose", coverage.no_pose},
+                 {"waiting_depth", coverage.waiting_depth},
+                 {"waiting_pose", coverage.waiting_pose},
                  {"bad_lines", coverage.bad_lines},
                  {"heatmap_skipped", coverage.heatmap_skipped},
                  {"pose_skipped", coverage.pose_skipped},

@@ -13,7 +13,6 @@
 #include "conversions.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
-#include "evolin_ros/dataset/camera_file.h"
 #include "node_parameters.h"
 #include "package_files.h"
 #include "topics.h"
@@ -81,8 +80,7 @@ CameraSource::CameraSource(const ros::NodeHandle& handle, std::string owner, con
                            ", which this node does not deliver in this version");
   }
   if (!camera.empty()) {
-    camera_ = loadCamera(camera.find('/') == std::string::npos ? camera : expandPath(camera),
-                         cameraFolder());
+    camera_ = cameraOfParameter(camera, cameraFolder());
     info_ = boost::make_shared<sensor_msgs::CameraInfo>(toMessage(*camera_, std_msgs::Header()));
   } else if (needs.camera || rectify != Rectify::kNever) {
     camera_info_ = ros::NodeHandle(handle).subscribe(topics::kCameraInfo, 10,

@@ -52,7 +52,6 @@ class CameraSource {
 
   std::string owner_;
   Rectify rectify_;
-  std::string preset_;
   image_geometry::PinholeCameraModel model_;  ///< keeps its maps from frame to frame
   std::mutex mutex_;                          ///< guards what follows, up to the blank line
   std::condition_variable changed_;

@@ -127,6 +127,15 @@ ros::Time toRosTime(Stamp stamp) {
                    static_cast<std::uint32_t>(stamp % kNanosecondsPerSecond));
 }
 
+std_msgs::ColorRGBA toMessage(const Colour& colour) {
+  std_msgs::ColorRGBA message;
+  message.r = static_cast<float>(colour.red) / 255.0F;
+  message.g = static_cast<float>(colour.green) / 255.0F;
+  message.b = static_cast<float>(colour.blue) / 255.0F;
+  message.a = 1;
+  return message;
+}
+
 std::string withoutLeadingSlash(const std::string& frame_id) {
   return frame_id.empty() || frame_id.front() != '/' ? frame_id : frame_id.substr(1);
 }

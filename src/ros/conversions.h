@@ -7,10 +7,12 @@
 #include <ros/time.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <std_msgs/ColorRGBA.h>
 
 #include <string>
 
 #include "evolin_ros/dataset/frame.h"
+#include "evolin_ros/drawing/palette.h"
 #include "evolin_ros/evaluation/inputs.h"
 #include "evolin_ros/geometry/projection.h"
 
@@ -54,6 +56,9 @@ cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor);
 /// The same as stored, without the rounding to single precision: units of a metre /
 /// `depth_factor`, or metres.
 DepthMap toDepthMap(const sensor_msgs::ImageConstPtr& message, double depth_factor);
+
+/// Opaque.
+std_msgs::ColorRGBA toMessage(const Colour& colour);
 
 /// TUM's bags write "/world"; tf2 and everybody else "world".
 std::string withoutLeadingSlash(const std::string& frame_id);

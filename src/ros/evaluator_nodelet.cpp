@@ -11,6 +11,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "conversions.h"
 #include "evaluation_session.h"
@@ -88,11 +89,12 @@ class EvaluatorNodelet : public SafeNodelet {
              {"dropped", counts.dropped},
              {"no_ground_truth", counts.no_ground_truth},
              {"bad_ground_truth", counts.bad_ground_truth},
-             {"skipped", counts.skipped},
-             {"no_depth", counts.no_depth},
-             {"no_pose", counts.no_pose},
-             {"heatmap_skipped", counts.heatmap_skipped},
-             {"pose_skipped", counts.pose_skipped}}};
+             {"skipped", counts.skipped}},
+            {{"no_depth", "without depth", counts.no_depth, counts.waiting_depth},
+             {"no_pose", "without a pose", counts.no_pose, counts.waiting_pose},
+             {"bad_lines", "with lines that are not finite", counts.bad_lines, 0},
+             {"heatmap_skipped", "without a heatmap", counts.heatmap_skipped, 0},
+             {"pose_skipped", "without a relative pose", counts.pose_skipped, 0}}};
   }
 
   /// All inputs share the single-threaded queue, so that each stays in its own order.
@@ -195,13 +197,17 @@ class EvaluatorNodelet : public SafeNodelet {
     }
     try {
       const Camera camera = fromMessage(message);
+      camera_problem_.clear();
       takeBeside(topics::kCameraInfo,
                  [&](StreamEvaluator* evaluator) { return evaluator->setCamera(camera); });
     } catch (const Error& error) {
       std::string text = getNodeHandle().resolveName(topics::kCameraInfo);
       text.append(": ").append(error.what());
       text.append("; without intrinsics, repeatability and relative pose are not evaluated");
-      warn(text);
+      // Once: it comes with every image.
+      if (std::exchange(camera_problem_, text) != text) {
+        NODELET_WARN("%s", text.c_str());
+      }
     }
   }
 
@@ -328,6 +334,7 @@ class EvaluatorNodelet : public SafeNodelet {
 
   EvaluatorOptions options_;
   std::set<std::string> crowded_;  ///< topics of several publishers that a warning has named
+  std::string camera_problem_;     ///< of the newest camera_info, when it cannot be used
   WallThrottle warnings_;
   std::unique_ptr<EvaluationSession> session_;
   std::unique_ptr<TopicWatchdog> watchdog_;

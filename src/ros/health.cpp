@@ -258,18 +258,31 @@ void Health::tellCoverage(DiagnosticStatusWrapper& status) {
   for (const auto& [reason, count] : coverage.reasons) {
     status.add(reason, count);
   }
-  const std::size_t in_flight =
-      std::min(coverage.waiting, static_cast<std::size_t>(limits_.in_flight));
+  for (const Lack& lack : coverage.lacking) {
+    status.add(lack.name, lack.count);
+  }
+  const auto may_wait = static_cast<std::size_t>(limits_.in_flight);
+  const std::size_t in_flight = std::min(coverage.waiting, may_wait);
   const std::size_t settled = coverage.seen - std::min(in_flight, coverage.seen);
   if (settled == 0) {
     status.summary(DiagnosticStatus::OK, "no frame is due yet");
     return;
   }
-  const double share = static_cast<double>(coverage.evaluated) / static_cast<double>(settled);
-  status.summary(levelBelow(share, limits_.coverage),
-                 std::to_string(coverage.evaluated) + " of " + std::to_string(settled) +
-                     " frames that are due were evaluated" +
-                     (coverage.remark.empty() ? "" : "; " + coverage.remark));
+  const auto levelOf = [&](std::size_t count) {
+    return levelBelow(static_cast<double>(count) / static_cast<double>(settled), limits_.coverage);
+  };
+  unsigned char level = levelOf(coverage.evaluated);
+  std::string text = std::to_string(coverage.evaluated) + " of " + std::to_string(settled) +
+                     " frames that are due were evaluated";
+  for (const Lack& lack : coverage.lacking) {
+    const std::size_t due = lack.count + lack.waiting - std::min(lack.waiting, may_wait);
+    if (due > 0) {
+      text += "; " + std::to_string(due) + " " + lack.what;
+      const unsigned char warning = DiagnosticStatus::WARN;
+      level = std::max(level, std::min(warning, levelOf(settled - std::min(due, settled))));
+    }
+  }
+  status.summary(level, text + (coverage.remark.empty() ? "" : "; " + coverage.remark));
 }
 
 }  // namespace evolin::ros_shell

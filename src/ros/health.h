@@ -46,6 +46,14 @@ class Health {
     std::size_t waiting = 0;
     std::size_t capacity = 0;  ///< 0: no limit
   };
+  /// Frames, evaluated or not, without what one family needs: a warning where they are too many to
+  /// be covered, but never an error.
+  struct Lack {
+    std::string name;  ///< of the counter
+    std::string what;  ///< "without depth"
+    std::size_t count = 0;
+    std::size_t waiting = 0;  ///< that may still get it
+  };
   /// Frames that have come to an end, and how.
   struct Coverage {
     std::size_t seen = 0;
@@ -53,6 +61,7 @@ class Health {
     std::size_t waiting = 0;
     std::string remark;  ///< "paused" or the like
     std::vector<std::pair<std::string, std::size_t>> reasons;
+    std::vector<Lack> lacking;
   };
 
   /// `owner` is the nodelet's name. Nothing is published before start().

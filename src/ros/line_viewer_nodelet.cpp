@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "conversions.h"
@@ -186,9 +187,14 @@ class LineViewerNodelet : public SafeNodelet {
   void takeCamera(const sensor_msgs::CameraInfo& message) {
     try {
       camera_ = fromMessage(message);
+      camera_problem_.clear();
     } catch (const Error& error) {
       camera_.reset();
-      warn("no markers: " + getNodeHandle().resolveName(topics::kCameraInfo) + ": " + error.what());
+      // Once: it comes with every image.
+      if (std::exchange(camera_problem_, error.what()) != error.what()) {
+        NODELET_WARN("no markers: %s: %s", getNodeHandle().resolveName(topics::kCameraInfo).c_str(),
+                     error.what());
+      }
     }
   }
 
@@ -242,7 +248,8 @@ class LineViewerNodelet : public SafeNodelet {
   std::unique_ptr<ViewFrames> frames_;
   std::unique_ptr<ViewNumbers> numbers_;
   std::optional<Camera> camera_;
-  bool anew_ = true;  ///< the next markers are the first of a pass
+  std::string camera_problem_;  ///< of the newest camera_info, when it cannot be used
+  bool anew_ = true;            ///< the next markers are the first of a pass
   ros::WallTime last_part_;
   std::atomic<bool> afresh_{false};  ///< somebody looks again
   // Of changes of listeners, which come from any thread.

@@ -214,6 +214,8 @@ evolin_ros::Coverage coverageMessage(const std_msgs::Header& header, const Cover
   message.skipped = static_cast<std::uint32_t>(counts.skipped);
   message.no_depth = static_cast<std::uint32_t>(counts.no_depth);
   message.no_pose = static_cast<std::uint32_t>(counts.no_pose);
+  message.waiting_depth = static_cast<std::uint32_t>(counts.waiting_depth);
+  message.waiting_pose = static_cast<std::uint32_t>(counts.waiting_pose);
   message.bad_lines = static_cast<std::uint32_t>(counts.bad_lines);
   message.heatmap_skipped = static_cast<std::uint32_t>(counts.heatmap_skipped);
   message.pose_skipped = static_cast<std::uint32_t>(counts.pose_skipped);

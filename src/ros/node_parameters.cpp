@@ -11,6 +11,7 @@
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/base/yaml_file.h"
+#include "evolin_ros/dataset/camera_file.h"
 
 namespace evolin::ros_shell {
 
@@ -131,6 +132,25 @@ std::string expandPath(const std::string& path) {
   return given.is_relative() && called_from != nullptr
              ? (std::filesystem::path(called_from) / given).lexically_normal().string()
              : path;
+}
+
+Camera cameraOfParameter(const std::string& name_or_file, const std::filesystem::path& presets) {
+  const std::filesystem::path name(name_or_file);
+  const std::string extension = name.extension().string();
+  const bool is_word = name_or_file.find('/') == std::string::npos;
+  if (is_word && extension != ".yaml" && extension != ".yml" && extension != ".txt") {
+    return loadCamera(name_or_file, presets);
+  }
+  const std::filesystem::path preset = presets / name;
+  if (is_word && std::filesystem::is_regular_file(preset)) {
+    return loadCamera(preset.string(), presets);
+  }
+  const std::string file = expandPath(name_or_file);
+  if (is_word && !std::filesystem::exists(file)) {
+    throw Error("camera " + quote(name_or_file) + ": there is neither " + preset.string() +
+                " nor " + file + "; expected a preset or a file");
+  }
+  return loadCamera(file, presets);
 }
 
 }  // namespace evolin::ros_shell

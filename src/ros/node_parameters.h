@@ -6,7 +6,10 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 #include <yaml-cpp/yaml.h>
 
+#include <filesystem>
 #include <string>
+
+#include "evolin_ros/geometry/camera.h"
 
 namespace evolin::ros_shell {
 
@@ -29,5 +32,10 @@ YAML::Node mergedParameters(const std::string& config, const YAML::Node& overrid
 
 /// `path` with ~ for the home folder and relative paths taken from where the launch was called.
 std::string expandPath(const std::string& path);
+
+/// The camera that ~camera names: a preset, with or without its .yaml, or else a file as
+/// expandPath() finds it. `presets` is the presets' folder. Throws Error naming the presets, or
+/// both places where a file was looked for.
+Camera cameraOfParameter(const std::string& name_or_file, const std::filesystem::path& presets);
 
 }  // namespace evolin::ros_shell

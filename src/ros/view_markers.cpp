@@ -14,15 +14,6 @@ namespace {
 
 using visualization_msgs::Marker;
 
-std_msgs::ColorRGBA toMessage(const Colour& colour) {
-  std_msgs::ColorRGBA message;
-  message.r = static_cast<float>(colour.red) / 255.0F;
-  message.g = static_cast<float>(colour.green) / 255.0F;
-  message.b = static_cast<float>(colour.blue) / 255.0F;
-  message.a = 1;
-  return message;
-}
-
 /// Collects lists of lines on the image plane.
 class MarkerMaker {
  public:

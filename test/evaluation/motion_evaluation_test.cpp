@@ -228,7 +228,11 @@ TEST(MotionEvaluation, CountsWhatIsMissing) {
     if (frame < 3) collected.take(motion.addPose(poseAt(frame)));
     collected.take(motion.addLines(detected(stampOf(frame), linesAt(frame))));
   }
+  EXPECT_EQ(motion.counts().no_depth, 1U) << "later depth is there";
+  EXPECT_EQ(motion.waiting().depth, 0U);
+  EXPECT_EQ(motion.waiting().pose, 3U);
   collected.take(motion.finish());
+  EXPECT_EQ(motion.waiting().pose, 0U);
   EXPECT_EQ(motion.counts().frames, 2U);
   EXPECT_EQ(motion.counts().no_depth, 1U);
   EXPECT_EQ(motion.counts().no_pose, 3U);
@@ -357,8 +361,12 @@ TEST(MotionEvaluation, ACopyThatFinishesLeavesTheOriginalWaiting) {
   MotionEvaluation copy = motion;
   copy.finish();
   EXPECT_EQ(copy.counts().no_pose, 1U);
-  collected.take(motion.addDepth(stampOf(1), wall()));
+  EXPECT_EQ(motion.waiting().pose, 1U);
   collected.take(motion.addPose(poseAt(1)));
+  EXPECT_EQ(motion.waiting().pose, 0U);
+  EXPECT_EQ(motion.waiting().depth, 1U);
+  collected.take(motion.addDepth(stampOf(1), wall()));
+  EXPECT_EQ(motion.waiting().depth, 0U);
   EXPECT_EQ(motion.counts().frames, 2U);
   EXPECT_EQ(collected.repeatability.size(), 1U);
 }

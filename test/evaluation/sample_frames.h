@@ -94,6 +94,10 @@ inline void expectEqual(const CoverageCounts& a, const CoverageCounts& b) {
   EXPECT_EQ(a.no_ground_truth, b.no_ground_truth);
   EXPECT_EQ(a.bad_ground_truth, b.bad_ground_truth);
   EXPECT_EQ(a.skipped, b.skipped);
+  EXPECT_EQ(a.no_depth, b.no_depth);
+  EXPECT_EQ(a.no_pose, b.no_pose);
+  EXPECT_EQ(a.waiting_depth, b.waiting_depth);
+  EXPECT_EQ(a.waiting_pose, b.waiting_pose);
 }
 
 /// Everything in a report as one text; the number of the pass and the order of the notes, which is

@@ -76,6 +76,11 @@ TEST(MetricMessages, CarryEveryCountOfCoverage) {
   counts.no_pose = 12;
   counts.heatmap_skipped = 13;
   counts.pose_skipped = 14;
+  counts.waiting_depth = 15;
+  counts.waiting_pose = 16;
+  counts.bad_lines = 17;
+  counts.depth_left_out = 18;
+  counts.poses_left_out = 19;
   const auto message = overTheWire(coverageMessage(std_msgs::Header(), counts));
   EXPECT_EQ(message.seen, 28U);
   EXPECT_EQ(message.evaluated, 6U);
@@ -88,6 +93,11 @@ TEST(MetricMessages, CarryEveryCountOfCoverage) {
   EXPECT_EQ(message.no_pose, 12U);
   EXPECT_EQ(message.heatmap_skipped, 13U);
   EXPECT_EQ(message.pose_skipped, 14U);
+  EXPECT_EQ(message.waiting_depth, 15U);
+  EXPECT_EQ(message.waiting_pose, 16U);
+  EXPECT_EQ(message.bad_lines, 17U);
+  EXPECT_EQ(message.depth_left_out, 18U);
+  EXPECT_EQ(message.poses_left_out, 19U);
 }
 
 TEST(MetricMessages, HeatmapHasASummaryOnlyOverThresholds) {

@@ -247,5 +247,34 @@ TEST(ExpandPath, LeavesPathsAloneWithoutTheVariables) {
   EXPECT_EQ(expandPath("~/a"), "/a");
 }
 
+std::string cameraOfWidth(int width) {
+  return "width: " + std::to_string(width) + "\nheight: 480\nfx: 500\nfy: 500\ncx: 320\ncy: 240\n";
+}
+
+TEST(CameraOfParameter, APresetComesBeforeAFileOfItsName) {
+  const test::TemporaryFolder presets;
+  const test::TemporaryFolder here;
+  presets.write("mine.yaml", cameraOfWidth(640));
+  here.write("mine.yaml", cameraOfWidth(320));
+  here.write("other.yaml", cameraOfWidth(160));
+  const Variable folder("PWD", here.path().string());
+  EXPECT_EQ(cameraOfParameter("mine", presets.path()).width, 640);
+  EXPECT_EQ(cameraOfParameter("mine.yaml", presets.path()).width, 640);
+  EXPECT_EQ(cameraOfParameter("./mine.yaml", presets.path()).width, 320);
+  EXPECT_EQ(cameraOfParameter("other.yaml", presets.path()).width, 160);
+  EXPECT_EQ(cameraOfParameter(presets.path() / "mine.yaml", presets.path()).width, 640);
+}
+
+TEST(CameraOfParameter, NamesBothPlacesWhereItLooked) {
+  const test::TemporaryFolder presets;
+  presets.write("mine.yaml", cameraOfWidth(640));
+  const Variable folder("PWD", "/called/from/here");
+  test::expectError([&] { cameraOfParameter("thine.yaml", presets.path()); },
+                    {"thine.yaml", presets.path().string(), "/called/from/here/thine.yaml"});
+  test::expectError([&] { cameraOfParameter("thine", presets.path()); }, {"thine", "mine"});
+  test::expectError([&] { cameraOfParameter("../thine.yaml", presets.path()); },
+                    {"/called/from/thine.yaml"});
+}
+
 }  // namespace
 }  // namespace evolin::ros_shell

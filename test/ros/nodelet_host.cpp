@@ -6,32 +6,76 @@
 #include <nodelet/loader.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud.h>
 #include <sensor_msgs/image_encodings.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <future>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "conversions.h"
 #include "evolin_ros/LineArray.h"
+#include "evolin_ros/dataset/csv.h"
+#include "evolin_ros/dataset/stamps_file.h"
 #include "test/support/drawn_sequence.h"
 
 namespace evolin::test {
 namespace {
 
-/// Images, cameras and annotations at 100 a second, of ever later stamps.
+ros::Time timeOf(std::size_t frame) {
+  return ros::Time(1000) + ros::Duration(0.01 * static_cast<double>(frame));
+}
+
+/// Two lines that a front-end of PL-VINS's make would follow.
+sensor_msgs::PointCloud lineCloud(const std_msgs::Header& header) {
+  sensor_msgs::PointCloud cloud;
+  cloud.header = header;
+  cloud.channels.resize(3);
+  for (const float row : {-0.1F, 0.1F}) {
+    geometry_msgs::Point32 start;
+    start.x = -0.2F;
+    start.y = row;
+    start.z = 1;
+    cloud.points.push_back(start);
+    cloud.channels[0].values.push_back(row > 0 ? 1 : 2);
+    cloud.channels[1].values.push_back(0.2F);
+    cloud.channels[2].values.push_back(row);
+  }
+  return cloud;
+}
+
+/// One line before the camera.
+visualization_msgs::Marker lineMarker(const std_msgs::Header& header) {
+  visualization_msgs::Marker marker;
+  marker.header = header;
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.pose.orientation.w = 1;
+  marker.points.resize(2);
+  marker.points[0].x = -0.5;
+  marker.points[0].z = marker.points[1].z = 2;
+  marker.points[1].x = 0.5;
+  return marker;
+}
+
+/// Everything that our nodelets take, at 100 frames a second of ever later stamps.
 class Camera {
  public:
   Camera()
       : image_(handle_.advertise<sensor_msgs::Image>("image", 0)),
         camera_info_(handle_.advertise<sensor_msgs::CameraInfo>("camera_info", 0)),
         truth_(handle_.advertise<evolin_ros::LineArray>("ground_truth/lines", 0)),
+        depth_(handle_.advertise<sensor_msgs::Image>("depth", 0)),
+        cloud_(handle_.advertise<sensor_msgs::PointCloud>("linefeature", 0)),
+        marker_(handle_.advertise<visualization_msgs::Marker>("marker", 0)),
         thread_([this] { run(); }) {}
   ~Camera() {
     stop_ = true;
@@ -47,7 +91,7 @@ class Camera {
     for (std::size_t i = 0; !stop_ && ros::ok(); ++i) {
       const SequenceFrame& frame = drawn[i % drawn.size()];
       std_msgs::Header header;
-      header.stamp = ros::Time(1000) + ros::Duration(0.01 * static_cast<double>(i));
+      header.stamp = timeOf(i);
       header.frame_id = "camera";
       camera_info_.publish(ros_shell::toMessage(*frame.frame.camera, header));
       image_.publish(
@@ -61,6 +105,11 @@ class Camera {
       const auto truth = boost::make_shared<evolin_ros::LineArray>(ros_shell::toMessage(set));
       truth->header = header;
       truth_.publish(truth);
+      depth_.publish(cv_bridge::CvImage(header, sensor_msgs::image_encodings::TYPE_32FC1,
+                                        cv::Mat(frame.frame.image.size(), CV_32FC1, cv::Scalar(2)))
+                         .toImageMsg());
+      cloud_.publish(boost::make_shared<sensor_msgs::PointCloud>(lineCloud(header)));
+      marker_.publish(boost::make_shared<visualization_msgs::Marker>(lineMarker(header)));
       next += std::chrono::milliseconds(10);
       std::this_thread::sleep_until(next);
     }
@@ -70,6 +119,9 @@ class Camera {
   ros::Publisher image_;
   ros::Publisher camera_info_;
   ros::Publisher truth_;
+  ros::Publisher depth_;
+  ros::Publisher cloud_;
+  ros::Publisher marker_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
@@ -81,10 +133,36 @@ void load(nodelet::Loader* loader, const std::string& name, const std::string& t
   }
 }
 
-void loadAll(nodelet::Loader* loader) {
-  load(loader, "evaluator", "Evaluator");
-  load(loader, "detector", "LineDetector");
-  load(loader, "associator", "LineAssociator", {{"/lines", "/ground_truth/lines"}});
+struct Nodelet {
+  std::string name;
+  std::string type;
+  nodelet::M_string remappings;
+};
+
+/// What evaluates a stream.
+std::vector<Nodelet> chain() {
+  return {{"evaluator", "Evaluator", {}},
+          {"detector", "LineDetector", {}},
+          {"associator", "LineAssociator", {{"/lines", "/ground_truth/lines"}}}};
+}
+
+std::vector<Nodelet> everyNodelet() {
+  std::vector<Nodelet> nodelets = chain();
+  // No two on one topic: lines of several sources are an error of their own.
+  nodelets.push_back({"viewer", "LineViewer", {}});
+  nodelets.push_back({"viewer_3d", "Lines3d", {}});
+  nodelets.push_back({"recorded", "GroundTruth", {{"/ground_truth/lines", "/recorded/lines"}}});
+  nodelets.push_back({"cloud_adapter",
+                      "PointCloudLines",
+                      {{"/lines", "/cloud/lines"}, {"/matches", "/cloud/matches"}}});
+  nodelets.push_back({"marker_adapter", "MarkerLines", {{"/lines", "/marker/lines"}}});
+  return nodelets;
+}
+
+void loadAll(nodelet::Loader* loader, const std::vector<Nodelet>& nodelets) {
+  for (const Nodelet& nodelet : nodelets) {
+    load(loader, nodelet.name, nodelet.type, nodelet.remappings);
+  }
 }
 
 void setParameters(const std::string& folder) {
@@ -99,22 +177,49 @@ void setParameters(const std::string& folder) {
   }
 }
 
+/// A folder that GroundTruth takes, with the first drawn frames' annotations.
+void writeAnnotations(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::vector<StampedFile> stamps;
+  for (const SequenceFrame& frame : drawSequence()) {
+    const std::string name = frame.frame.name + ".csv";
+    writeLinesCsv(folder / name, *frame.ground_truth);
+    stamps.push_back({ros_shell::fromRos(timeOf(stamps.size())), name});
+  }
+  writeStampsFile(folder / "stamps.txt", stamps);
+  ros::param::set("/recorded/folder", folder.string());
+}
+
+/// Somebody who looks: without him a viewer does nothing.
+template <class Message>
+ros::Subscriber lookAt(ros::NodeHandle* handle, const std::string& topic) {
+  return handle->subscribe<Message>(topic, 1, [](const boost::shared_ptr<const Message>&) {});
+}
+
 /// The order of unloading changes from round to round.
 int cycle(int rounds, const std::string& folder) {
   setParameters(folder);
+  writeAnnotations(std::filesystem::path(folder) / "annotations");
   nodelet::Loader loader(false);
   const Camera camera;
+  ros::NodeHandle handle;
+  const std::vector<ros::Subscriber> lookers = {
+      lookAt<sensor_msgs::Image>(&handle, "overlay"),
+      lookAt<visualization_msgs::MarkerArray>(&handle, "markers"),
+      lookAt<visualization_msgs::MarkerArray>(&handle, "lines_3d"),
+      lookAt<sensor_msgs::Image>(&handle, "lines_image")};
   ros::AsyncSpinner spinner(1);
   spinner.start();
-  std::vector<std::string> names = {"associator", "detector", "evaluator"};
+  std::vector<Nodelet> nodelets = everyNodelet();
+  std::mt19937 random(7);
   for (int i = 0; i < rounds; ++i) {
-    loadAll(&loader);
+    loadAll(&loader, nodelets);
     // Between nothing and a few frames.
     std::this_thread::sleep_for(std::chrono::milliseconds(i * 37 % 90));
-    std::next_permutation(names.begin(), names.end());
-    for (const std::string& name : names) {
-      if (!loader.unload("/" + name)) {
-        throw std::runtime_error(name + " does not unload");
+    std::shuffle(nodelets.begin(), nodelets.end(), random);
+    for (const Nodelet& nodelet : nodelets) {
+      if (!loader.unload("/" + nodelet.name)) {
+        throw std::runtime_error(nodelet.name + " does not unload");
       }
     }
   }
@@ -124,7 +229,7 @@ int cycle(int rounds, const std::string& folder) {
 int stream(const std::string& folder) {
   setParameters(folder);
   nodelet::Loader loader(false);
-  loadAll(&loader);
+  loadAll(&loader, chain());
   const Camera camera;
   ros::spin();
   return 0;

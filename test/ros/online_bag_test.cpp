@@ -11,6 +11,7 @@
 
 #include "bag_writer.h"
 #include "evolin_ros/DetectionMetrics.h"
+#include "online_diagnostics.h"
 #include "online_stream.h"
 #include "test/support/drawn_sequence.h"
 #include "test/support/lsd_release.h"
@@ -18,6 +19,8 @@
 
 namespace evolin::test {
 namespace {
+
+using Status = diagnostic_msgs::DiagnosticStatus;
 
 const char* const kPlayer = EVOLIN_SOURCE_DIR "/scripts/play_bag";
 
@@ -135,13 +138,53 @@ TEST(OnlineBag, AtTenTimesTheSpeedTheReportIsTheSame) {
   const TemporaryFolder folder;
   writeBag(frames, folder.path() / "drawn.bag");
   ros::param::set(testNamespace() + "/player/rate", 10.0);
+  ros::param::set(testNamespace() + "/evaluator/diagnostic_period", 0.1);
   BagRun run(folder.path() / "drawn.bag", availableDetector());
+  const DiagnosticsReader diagnostics(run.space() + "/evaluator");
   const nlohmann::json report = run.play();
+  EXPECT_TRUE(diagnostics.waitFor("coverage", [](const Status& status) {
+    return DiagnosticsReader::valueOf(status, "seen") == "40" &&
+           DiagnosticsReader::valueOf(status, "evaluated") == "40";
+  }));
   const Expected expected = evaluateInProcess(frames);
   ASSERT_EQ(expected.pairs.size(), 39U);
   expectWholeReport(report, expected);
   EXPECT_EQ(report.at("coverage").at("input_images"), 40);
   EXPECT_EQ(report.at("provenance").at("parameters").at("input").at("rate"), 10);
+}
+
+TEST(OnlineBag, WhatAMethodLosesAtTenTimesTheSpeedIsTold) {
+  const std::vector<SequenceFrame> frames = drawSequence(fortyFrames());
+  const TemporaryFolder folder;
+  writeBag(frames, folder.path() / "drawn.bag");
+  const std::string space = testNamespace();
+  ros::param::set(space + "/player/rate", 10.0);
+  ros::param::set(space + "/detector/parameters/seconds", 0.1);
+  ros::param::set(space + "/detector/realtime", true);
+  for (const char* node : {"detector", "evaluator"}) {
+    ros::param::set(space + "/" + node + "/diagnostic_period", 0.1);
+  }
+  ros::param::set(space + "/evaluator/diagnostics/in_flight", 0);
+  BagRun run(folder.path() / "drawn.bag", "test_slow");
+  const DiagnosticsReader evaluator(space + "/evaluator");
+  const DiagnosticsReader detector(space + "/detector");
+  const nlohmann::json report = run.play();
+  const nlohmann::json& coverage = report.at("coverage");
+  const auto evaluated = coverage.at("evaluated").get<std::size_t>();
+  EXPECT_GE(evaluated, 1U);
+  EXPECT_LT(evaluated, 20U);
+  expectCoverage(report, 40, evaluated, {{"unmatched", 40 - evaluated}});
+  EXPECT_EQ(coverage.at("input_images"), 40);
+  EXPECT_EQ(report.at("detection").at("frames"), evaluated);
+  EXPECT_TRUE(detector.waitFor("drops", [&](const Status& status) {
+    return DiagnosticsReader::valueOf(status, "dropped to keep up") ==
+           std::to_string(40 - evaluated);
+  }));
+  EXPECT_TRUE(evaluator.waitFor("coverage", [&](const Status& status) {
+    return status.level == Status::ERROR &&
+           status.message.find(std::to_string(evaluated) + " of 40 frames that are due") == 0;
+  }));
+  expectReasons(report);
 }
 
 TEST(OnlineBag, APauseIsNoEnd) {
@@ -152,9 +195,12 @@ TEST(OnlineBag, APauseIsNoEnd) {
   ros::param::set(space + "/player/rate", 0.5);
   ros::param::set(space + "/evaluator/save_period", 1000);
   ros::param::set(space + "/evaluator/idle_timeout", 0.5);
+  ros::param::set(space + "/evaluator/diagnostic_period", 0.1);
+  ros::param::set(space + "/evaluator/diagnostics/silence_warn", 0.5);
   BagRun run(folder.path() / "drawn.bag", availableDetector());
   Collector<evolin_ros::DetectionMetrics> detection(space + "/metrics/detection/frame");
   ASSERT_TRUE(detection.waitForPublisher());
+  const DiagnosticsReader diagnostics(space + "/evaluator");
   const nlohmann::json report = run.play([&] {
     ASSERT_TRUE(detection.waitForCount(10));
     ASSERT_TRUE(run.setPaused(true));
@@ -167,6 +213,13 @@ TEST(OnlineBag, APauseIsNoEnd) {
     EXPECT_GE(evaluated, 10U);
     EXPECT_LT(evaluated, 40U);
     EXPECT_EQ(detection.count(), evaluated);
+    EXPECT_TRUE(diagnostics.waitFor("inputs", [](const Status& status) {
+      return status.level == Status::WARN &&
+             status.message.find("no message on ") != std::string::npos;
+    }));
+    EXPECT_TRUE(diagnostics.waitFor("coverage", [&](const Status& status) {
+      return DiagnosticsReader::valueOf(status, "evaluated") == std::to_string(evaluated);
+    }));
     ASSERT_TRUE(run.setPaused(false));
   });
   EXPECT_EQ(report.at("pass"), 1);

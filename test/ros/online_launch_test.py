@@ -150,6 +150,15 @@ class OnlineLaunch(unittest.TestCase):
         self.assertNotEqual(status, 0)
         self.assertIn('associate:=foo; expected ground_truth or detected', output)
 
+    def test_where_rqt_is_absent_the_launch_says_so_and_goes_on(self):
+        if subprocess.run(['rospack', 'find', 'rqt_gui'], stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL).returncode == 0:
+            self.skipTest('rqt is installed')
+        status, output = self.launch(rqt='true')
+        self.assertEqual(status, 0, output)
+        self.assertIn('rqt is not installed, all else goes on without it: apt-get install', output)
+        self.check_detection(self.report(), self.expected['whole'])
+
     def test_the_players_patience_is_an_argument(self):
         self.check_failure('player: waited 0.01 s for', player_timeout=0.01)
 

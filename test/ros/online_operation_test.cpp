@@ -5,8 +5,14 @@
 #include <ros/param.h>
 #include <std_srvs/SetBool.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "conversions.h"
+#include "evolin_ros/Coverage.h"
 #include "evolin_ros/DetectionMetrics.h"
+#include "evolin_ros/PoseMetrics.h"
+#include "evolin_ros/RepeatabilityMetrics.h"
 #include "online_diagnostics.h"
 #include "online_stream.h"
 #include "plugin_loader.h"
@@ -135,7 +141,15 @@ TEST(OnlineOperation, GroundTruthOfAThirdIsAnErrorOfCoverage) {
            status.message == "12 of 34 frames that are due were evaluated";
   }));
   bench.call("finish");
-  expectCoverage(bench.report(), 36, 12, {{"no_ground_truth", 24}});
+  const nlohmann::json report = bench.report();
+  expectCoverage(report, 36, 12, {{"no_ground_truth", 24}});
+  Frames known = frames;
+  known.erase(std::remove_if(known.begin(), known.end(),
+                             [](const SequenceFrame& frame) { return !frame.ground_truth; }),
+              known.end());
+  expectDetection(report, evaluateLines(known, linesOf(known, YAML::Node()), withoutAssociator()));
+  EXPECT_EQ(report.at("heatmap").at("frames"), 12);
+  expectReasons(report);
 }
 
 TEST(OnlineOperation, WithoutDepthTheFamiliesThatNeedItGiveNoFigure) {
@@ -150,13 +164,37 @@ TEST(OnlineOperation, WithoutDepthTheFamiliesThatNeedItGiveNoFigure) {
     pose.pose = ros_shell::toMessage(*frame.frame.pose);
     poses.publish(pose);
   }
+  const DiagnosticsReader diagnostics(bench.space() + "/evaluator");
   ASSERT_TRUE(bench.play(frames));
+  // Two may be in flight.
+  EXPECT_TRUE(diagnostics.waitFor("coverage", [](const Status& status) {
+    return status.level == Status::WARN &&
+           status.message == "12 of 12 frames that are due were evaluated; 10 without depth";
+  }));
   bench.call("finish");
+  Collector<evolin_ros::Coverage> coverage(bench.space() + "/coverage");
+  Collector<evolin_ros::RepeatabilityMetrics> repeatability(bench.space() +
+                                                            "/metrics/repeatability/cumulative");
+  Collector<evolin_ros::PoseMetrics> pose(bench.space() + "/metrics/pose/cumulative");
+  ASSERT_TRUE(coverage.waitForCount(1));
+  EXPECT_EQ(coverage.messages().back().evaluated, 12U);
+  EXPECT_EQ(coverage.messages().back().waiting_depth, 12U);
+  ASSERT_TRUE(repeatability.waitForCount(1));
+  for (const evolin_ros::RepeatabilityEntry& entry : repeatability.messages().back().entries) {
+    EXPECT_TRUE(std::isnan(entry.repeatability));
+    EXPECT_TRUE(std::isnan(entry.localization_error));
+  }
+  ASSERT_TRUE(pose.waitForCount(1));
+  EXPECT_EQ(pose.messages().back().pairs, 0U);
+  EXPECT_TRUE(std::isnan(pose.messages().back().success_rate));
+  EXPECT_TRUE(std::isnan(pose.messages().back().rotation_median));
   const nlohmann::json report = bench.report();
   expectCoverage(report, 12, 12, {{"no_depth", 12}, {"no_pose", 0}});
-  const nlohmann::json& entry = report.at("repeatability").at("entries").at(0);
-  EXPECT_TRUE(entry.at("repeatability").is_null()) << entry;
-  EXPECT_FALSE(entry.at("reason").get<std::string>().empty());
+  for (const nlohmann::json& entry : report.at("repeatability").at("entries")) {
+    EXPECT_TRUE(entry.at("repeatability").is_null()) << entry;
+  }
+  EXPECT_TRUE(report.at("pose").at("rotation_median_deg").is_null());
+  expectReasons(report);
 }
 
 /// A detector of a fifth of a second at 30 images a second.

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <chrono>
 #include <fstream>
+#include <set>
 
 #include "plugin_loader.h"
 
@@ -219,6 +220,45 @@ void expectCoverage(const nlohmann::json& report, std::size_t seen, std::size_t 
     EXPECT_EQ(value, reason == reasons.end() ? 0 : reason->second) << name;
   }
 }
+
+namespace {
+
+/// `reason`: there is one here or around; `of_nothing`: no frame or pair is in the figures.
+void expectReasonsIn(const nlohmann::json& value, const std::string& path, bool reason,
+                     bool of_nothing) {
+  static const std::set<std::string> kFigures = {"precision",
+                                                 "recall",
+                                                 "f_score",
+                                                 "average_precision",
+                                                 "repeatability",
+                                                 "localization_error",
+                                                 "rotation_median_deg",
+                                                 "success_rate",
+                                                 "translation_median_m",
+                                                 "translation_angle_median_deg",
+                                                 "spatial_spread"};
+  if (value.is_object()) {
+    reason = reason || (value.contains("reason") && !value.at("reason").get<std::string>().empty());
+    for (const char* count : {"frames", "pairs"}) {
+      of_nothing = of_nothing || (value.contains(count) && value.at(count) == 0);
+    }
+    for (const auto& [name, member] : value.items()) {
+      const std::string below = path + "/" + name;
+      EXPECT_TRUE(!member.is_null() || reason) << below << " is null without a reason";
+      EXPECT_TRUE(member.is_null() || !of_nothing || kFigures.count(name) == 0)
+          << below << " is a figure of nothing: " << member;
+      expectReasonsIn(member, below, reason, of_nothing);
+    }
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      expectReasonsIn(value[i], path + "/" + std::to_string(i), reason, of_nothing);
+    }
+  }
+}
+
+}  // namespace
+
+void expectReasons(const nlohmann::json& report) { expectReasonsIn(report, "", false, false); }
 
 void expectWholeReport(const nlohmann::json& report, const Expected& expected) {
   EXPECT_EQ(report.at("complete"), true);

@@ -118,6 +118,10 @@ void expectAssociation(const nlohmann::json& report, const Expected& expected);
 void expectCoverage(const nlohmann::json& report, std::size_t seen, std::size_t evaluated,
                     const std::map<std::string, std::size_t>& reasons = {});
 
+/// Nothing pretends: a figure without a value is null, and the object that holds it, or one around
+/// it, says why.
+void expectReasons(const nlohmann::json& report);
+
 /// A complete report of all frames that equals `expected` in detection, association and coverage.
 void expectWholeReport(const nlohmann::json& report, const Expected& expected);
 

@@ -71,6 +71,12 @@ struct MotionCounts {
   std::size_t pairs_skipped = 0;  ///< unusable matches; a note says why
 };
 
+/// Frames with lines that are neither scored nor given up.
+struct MotionWaiting {
+  std::size_t depth = 0;  ///< their depth, or the camera, has not come yet
+  std::size_t pose = 0;   ///< their pose has not come yet (and perhaps no depth either)
+};
+
 struct MotionUpdate {
   std::vector<RepeatabilityRecord> repeatability;
   std::vector<PoseTask> pose_tasks;
@@ -106,6 +112,8 @@ class MotionEvaluation {
   MotionUpdate finish();
 
   const MotionCounts& counts() const { return counts_; }
+  /// What finish() would count as frames without depth or pose.
+  MotionWaiting waiting() const;
   const RepeatabilityMetrics& repeatability() const { return repeatability_; }
   /// None without score thresholds.
   const std::optional<RepeatabilityMetrics>& repeatabilityByScore() const { return by_score_; }

@@ -121,8 +121,9 @@ class PassEvaluation {
   /// Frames by state, as report(false) has them, without building a report.
   CoverageCounts coverage() const;
 
-  /// Whether an image or ground truth is there whose lines have not come, matches are still due
-  /// for the newest frames, or tasks are under way.
+  /// Whether an image or ground truth is there whose lines may still come (a front-end that sends
+  /// in order has left out what it has passed over), matches are still due for the newest frames,
+  /// or tasks are under way.
   bool waiting() const;
 
   const MotionEvaluation& motion() const { return motion_; }
@@ -227,6 +228,7 @@ class PassEvaluation {
   std::size_t notes_left_out_ = 0;
   std::uint32_t lines_seen_ = 0;
   std::optional<Stamp> newest_lines_;
+  bool lines_in_order_ = true;
   std::size_t ground_truth_seen_ = 0;
   std::optional<Stamp> newest_matches_;
   std::string lines_source_;

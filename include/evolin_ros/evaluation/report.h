@@ -52,6 +52,8 @@ struct CoverageCounts {
   // Besides: a frame may be evaluated and lack what one family needs.
   std::size_t no_depth = 0;         ///< frames with lines to which no depth image belongs
   std::size_t no_pose = 0;          ///< frames with lines without a camera pose
+  std::size_t waiting_depth = 0;    ///< frames with lines whose depth or camera may still come
+  std::size_t waiting_pose = 0;     ///< frames with lines whose pose may still come
   std::size_t bad_lines = 0;        ///< frames with lines that are not finite
   std::size_t heatmap_skipped = 0;  ///< frames left out of the heatmap for want of time
   std::size_t pose_skipped = 0;     ///< pairs left out of relative pose for want of time

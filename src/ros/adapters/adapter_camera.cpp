@@ -7,7 +7,6 @@
 #include "conversions.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
-#include "evolin_ros/dataset/camera_file.h"
 #include "node_parameters.h"
 #include "package_files.h"
 #include "topics.h"
@@ -78,9 +77,7 @@ AdapterCamera::AdapterCamera(ros::NodeHandle& handle, Options options, Callbacks
         handle.subscribe(topics::kCameraInfo, kResultQueue, &AdapterCamera::onCameraInfo, this);
     return;
   }
-  const std::string& name = options_.camera;
-  const Camera camera =
-      loadCamera(name.find('/') == std::string::npos ? name : expandPath(name), cameraFolder());
+  const Camera camera = cameraOfParameter(options_.camera, cameraFolder());
   view_ = AdapterView{imageViewOf(camera, options_.pixels), withoutLeadingSlash(options_.frame_id)};
 }
 

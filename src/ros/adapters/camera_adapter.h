@@ -10,6 +10,7 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "adapter_camera.h"
 #include "conversions.h"
@@ -114,7 +115,8 @@ class CameraAdapter : public SafeNodelet {
 
   void onUnusableCamera(const std::string& why) {
     watchdog_->heard(getNodeHandle().resolveName(topics::kCameraInfo));
-    if (camera_errors_.due()) {
+    // Once: it comes with every image.
+    if (std::exchange(camera_problem_, why) != why) {
       NODELET_ERROR("%s: %s", getNodeHandle().resolveName(topics::kCameraInfo).c_str(),
                     why.c_str());
     }
@@ -141,7 +143,7 @@ class CameraAdapter : public SafeNodelet {
   std::size_t refused_ = 0;
   WallThrottle warnings_;
   WallThrottle errors_;
-  WallThrottle camera_errors_;
+  std::string camera_problem_;  ///< of the newest camera_info that could not be used
   std::unique_ptr<TopicWatchdog> watchdog_;
   std::unique_ptr<AdapterCamera> camera_;
   ros::Publisher lines_;

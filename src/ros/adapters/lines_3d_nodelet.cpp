@@ -197,8 +197,12 @@ class Lines3dNodelet : public SafeNodelet {
     watchdog_->heard(name(topics::kCameraInfo));
     try {
       camera_ = fromMessage(*message);
+      camera_problem_.clear();
     } catch (const Error& error) {
-      warn(name(topics::kCameraInfo) + ": " + error.what());
+      // Once: it comes with every image.
+      if (std::exchange(camera_problem_, error.what()) != error.what()) {
+        NODELET_WARN("%s: %s", name(topics::kCameraInfo).c_str(), error.what());
+      }
       return;
     }
     const LensDistortion lens(*camera_);
@@ -332,6 +336,7 @@ class Lines3dNodelet : public SafeNodelet {
   std::map<Stamp, Entry> entries_;
   std::optional<StampedDepth> depth_;
   std::optional<Camera> camera_;
+  std::string camera_problem_;  ///< of the newest camera_info, when it cannot be used
   std::optional<Stamp> newest_;
   std::size_t given_up_ = 0;
   bool distortion_told_ = false;

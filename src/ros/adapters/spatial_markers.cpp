@@ -1,18 +1,12 @@
 // Markers with stable names, so that a new frame's replace the last one's.
 #include "spatial_markers.h"
 
+#include "conversions.h"
+#include "evolin_ros/drawing/palette.h"
+
 namespace evolin::ros_shell {
 
 namespace {
-
-std_msgs::ColorRGBA color(float red, float green, float blue) {
-  std_msgs::ColorRGBA result;
-  result.r = red;
-  result.g = green;
-  result.b = blue;
-  result.a = 1;
-  return result;
-}
 
 geometry_msgs::Point toPoint(const Eigen::Vector3d& point) {
   geometry_msgs::Point result;
@@ -25,10 +19,10 @@ geometry_msgs::Point toPoint(const Eigen::Vector3d& point) {
 }  // namespace
 
 std::vector<SegmentGroup> emptyGroups() {
-  return {{"true_positive", color(0.1F, 0.8F, 0.2F), {}},
-          {"false_positive", color(0.9F, 0.15F, 0.1F), {}},
-          {"missed", color(0.15F, 0.4F, 1.0F), {}},
-          {"lines", color(1, 1, 1), {}}};
+  return {{"true_positive", toMessage(palette::kTruePositive), {}},
+          {"false_positive", toMessage(palette::kFalsePositive), {}},
+          {"missed", toMessage(palette::kMissed), {}},
+          {"lines", toMessage(palette::kPlain), {}}};
 }
 
 visualization_msgs::MarkerArray markersOf(const std_msgs::Header& header,

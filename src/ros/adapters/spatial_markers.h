@@ -19,8 +19,8 @@ struct SegmentGroup {
   std::vector<Segment3d> segments;  ///< metres, in the header's frame
 };
 
-/// The groups of Lines3d, without segments: true_positive (green), false_positive (red), missed
-/// (blue) and lines (white: not judged).
+/// The groups of Lines3d, without segments, in the overlay's colours: true_positive (blue),
+/// false_positive (orange), missed (white) and lines (grey: not judged).
 std::vector<SegmentGroup> emptyGroups();
 
 /// A LINE_LIST for each group, `width` metres wide; a group without segments takes its marker away.
