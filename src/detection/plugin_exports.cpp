@@ -5,8 +5,10 @@
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
+#include "evolin_ros/detection/recorded_detector.h"
 
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvLsd, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvEdLines, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvFld, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::HoughP, evolin::LineDetector)
+PLUGINLIB_EXPORT_CLASS(evolin::RecordedDetector, evolin::LineDetector)
