@@ -219,7 +219,9 @@ class MessageReader {
       const std::uint32_t number = numberOf(fields, "conn");
       if (opOf(fields) == kOpConnection) {
         Fields inner = readFields(data, data_size);
-        connections_[number] = {fields.at("topic"), inner["type"], inner["md5sum"]};
+        const auto topic = fields.find("topic");
+        connections_[number] = {topic == fields.end() ? "" : topic->second, inner["type"],
+                                inner["md5sum"]};
       } else if (opOf(fields) == kOpMessage && connections_.count(number) != 0) {
         return Record{&connections_[number], timeOf(fields), reinterpret_cast<std::uint8_t*>(data),
                       data_size};
