@@ -53,7 +53,7 @@ struct RunOptions {
   std::string metrics;
   std::string protocol = "evolin";
   std::vector<std::string> settings;
-  int bootstrap = 0;
+  int bootstrap = static_cast<int>(BootstrapOptions().resamples);
   std::string output;
   int threads = 0;
   bool quiet = false;
@@ -93,7 +93,8 @@ po::options_description describe(RunOptions* options) {
   add("set", po::value(&options->settings)->value_name("KEY=VALUE")->composing(),
       "any parameter of the evaluator nodelet that is the evaluation's own, for example "
       "--set repeatability_steps=[1,5]; again for more");
-  add("bootstrap", po::value(&options->bootstrap)->value_name("N")->default_value(0),
+  add("bootstrap",
+      po::value(&options->bootstrap)->value_name("N")->default_value(options->bootstrap),
       "resamples for 95 % intervals, 0: none");
   add("output,o", po::value(&options->output)->value_name("DIR")->required(),
       "folder to write; one that 'evolin run' made before is replaced");
@@ -111,9 +112,7 @@ YAML::Node evaluationParameters(const RunOptions& options) {
       parameters["metrics"].push_back(std::string(trim(name)));
     }
   }
-  if (options.bootstrap != 0) {
-    parameters["bootstrap"] = std::to_string(options.bootstrap);
-  }
+  parameters["bootstrap"] = std::to_string(options.bootstrap);
   for (const std::string& text : options.settings) {
     parseAssignments("--set", text, &parameters);
   }
@@ -241,8 +240,8 @@ int runRun(const std::vector<std::string>& arguments) {
   const std::unique_ptr<PartReader> reader =
       options.input.open(wantedParts(run.evaluation.pass.families), needs);
 
-  OutputFolder folder(options.output, kMarker, true);
   const InterruptGuard guard;
+  OutputFolder folder(options.output, kMarker, true);
   std::optional<Progress> progress;
   if (!options.quiet) {
     progress.emplace("frames", reader->images());
