@@ -40,7 +40,7 @@ cv::Mat decode(const sensor_msgs::CompressedImage& message) {
   } catch (const std::exception& error) {  // OpenCV's own
     throw Error(error.what());
   }
-  if (image.type() != CV_8UC1 && image.type() != CV_8UC3) {
+  if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) {
     throw Error("compressed image of format " + quote(message.format) + " and " +
                 std::to_string(message.data.size()) +
                 " bytes: no 8-bit picture comes of it, expected JPEG or PNG");
