@@ -26,7 +26,7 @@ bool hasLength(const LineSegment& line) {
          static_cast<float>(line.y1) != static_cast<float>(line.y2);
 }
 
-cv::Mat describe(const FrameLines& lines) {
+cv::Mat descriptorsOf(const FrameLines& lines) {
   const auto* known = std::any_cast<LbdDescription>(&lines.description);
   if (known != nullptr && known->descriptors.rows == static_cast<int>(lines.lines.size())) {
     return known->descriptors;
@@ -58,11 +58,18 @@ void LbdAssociator::configure(const YAML::Node& parameters) {
   configured_ = true;
 }
 
+void LbdAssociator::describe(const FrameLines& lines) {
+  if (!configured_) {
+    throw Error(std::string(kOwner) + ": describe() was called before configure()");
+  }
+  descriptorsOf(lines);
+}
+
 LineMatches LbdAssociator::match(const FrameLines& first, const FrameLines& second) {
   if (!configured_) {
     throw Error(std::string(kOwner) + ": match() was called before configure()");
   }
-  return matchDescriptors(describe(first), describe(second), parameters_.cross_check);
+  return matchDescriptors(descriptorsOf(first), descriptorsOf(second), parameters_.cross_check);
 }
 
 }  // namespace evolin

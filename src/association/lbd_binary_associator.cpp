@@ -22,7 +22,7 @@ struct LbdBinaryDescription {
   BinaryDescriptors descriptors;
 };
 
-BinaryDescriptors describe(const FrameLines& lines) {
+BinaryDescriptors descriptorsOf(const FrameLines& lines) {
   const auto* known = std::any_cast<LbdBinaryDescription>(&lines.description);
   if (known != nullptr && known->descriptors.valid.size() == lines.lines.size()) {
     return known->descriptors;
@@ -55,12 +55,19 @@ void LbdBinaryAssociator::configure(const YAML::Node& parameters) {
   configured_ = true;
 }
 
+void LbdBinaryAssociator::describe(const FrameLines& lines) {
+  if (!configured_) {
+    throw Error(std::string(kOwner) + ": describe() was called before configure()");
+  }
+  descriptorsOf(lines);
+}
+
 LineMatches LbdBinaryAssociator::match(const FrameLines& first, const FrameLines& second) {
   if (!configured_) {
     throw Error(std::string(kOwner) + ": match() was called before configure()");
   }
-  return matchBinaryDescriptors(describe(first), describe(second), parameters_.cross_check,
-                                parameters_.max_distance);
+  return matchBinaryDescriptors(descriptorsOf(first), descriptorsOf(second),
+                                parameters_.cross_check, parameters_.max_distance);
 }
 
 }  // namespace evolin

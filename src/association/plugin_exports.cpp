@@ -3,6 +3,8 @@
 
 #include "evolin_ros/association/lbd_associator.h"
 #include "evolin_ros/association/lbd_binary_associator.h"
+#include "evolin_ros/association/recorded_associator.h"
 
 PLUGINLIB_EXPORT_CLASS(evolin::LbdAssociator, evolin::LineAssociator)
 PLUGINLIB_EXPORT_CLASS(evolin::LbdBinaryAssociator, evolin::LineAssociator)
+PLUGINLIB_EXPORT_CLASS(evolin::RecordedAssociator, evolin::LineAssociator)

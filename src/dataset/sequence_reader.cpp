@@ -44,7 +44,9 @@ int lineNaming(const fs::path& list, const std::string& file) {
 class PlannedSequence : public SequenceReader {
  public:
   PlannedSequence(SequencePlan plan, const SequenceOptions& options)
-      : plan_(std::move(plan)), allow_missing_(options.allow_missing) {
+      : plan_(std::move(plan)),
+        allow_missing_(options.allow_missing),
+        read_depth_(options.read_depth) {
     openCamera(options);
     openAnnotations(options);
     cutToWindow(options);
@@ -173,7 +175,7 @@ class PlannedSequence : public SequenceReader {
   }
 
   void addDepth(const PlannedFrame& planned, SequenceFrame* result) const {
-    if (planned.depth.empty()) {
+    if (planned.depth.empty() || !read_depth_) {
       return;
     }
     const double factor = camera_ ? camera_->depth_factor : Camera().depth_factor;
@@ -217,6 +219,7 @@ class PlannedSequence : public SequenceReader {
 
   SequencePlan plan_;
   bool allow_missing_;
+  bool read_depth_;
   std::optional<Camera> camera_;
   std::optional<AnnotationFolder> annotations_;
   std::size_t position_ = 0;

@@ -7,6 +7,7 @@
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
+#include "evolin_ros/detection/recorded_detector.h"
 
 PLUGINLIB_EXPORT_CLASS(evolin::Elsed, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Lsd, evolin::LineDetector)
@@ -14,3 +15,4 @@ PLUGINLIB_EXPORT_CLASS(evolin::OpenCvLsd, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvEdLines, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvFld, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::HoughP, evolin::LineDetector)
+PLUGINLIB_EXPORT_CLASS(evolin::RecordedDetector, evolin::LineDetector)

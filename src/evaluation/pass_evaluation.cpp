@@ -123,7 +123,7 @@ EvaluationUpdate PassEvaluation::takeLines(LineSet lines) {
            &update);
     }
   }
-  take(motion_.addLines(lines), &update);
+  take(times_.measure(motionStage(), [&] { return motion_.addLines(lines); }), &update);
   lines.processing_time = measuredTime(lines.processing_time);
   entry.record.processing_time = lines.processing_time;
   if (lines.processing_time > 0) {
@@ -137,7 +137,7 @@ EvaluationUpdate PassEvaluation::takeLines(LineSet lines) {
   entry.lines = std::make_shared<const LineSet>(std::move(lines));
   hold(stamp);
   evaluateFrame(&entry, &update);
-  followTracks();
+  times_.measure(Stage::kTracks, [this] { followTracks(); });
   return update;
 }
 
@@ -149,7 +149,8 @@ EvaluationUpdate PassEvaluation::addGroundTruth(LineSet ground_truth) {
   entry.record.ground_truth = ground_truth.lines.size();
   ground_truth_source_ = ground_truth.source;
   ++ground_truth_seen_;
-  take(motion_.addGroundTruth(ground_truth), &update);
+  take(times_.measure(motionStage(), [&] { return motion_.addGroundTruth(ground_truth); }),
+       &update);
   if (entry.released) {
     setState(&entry, FrameState::kDropped);
     return update;
@@ -163,19 +164,20 @@ EvaluationUpdate PassEvaluation::addGroundTruth(LineSet ground_truth) {
 
 EvaluationUpdate PassEvaluation::setCamera(const Camera& camera) {
   EvaluationUpdate update;
-  take(motion_.setCamera(camera), &update);
+  take(times_.measure(motionStage(), [&] { return motion_.setCamera(camera); }), &update);
   return update;
 }
 
 EvaluationUpdate PassEvaluation::addDepth(Stamp stamp, DepthMap depth) {
   EvaluationUpdate update;
-  take(motion_.addDepth(stamp, std::move(depth)), &update);
+  take(times_.measure(motionStage(), [&] { return motion_.addDepth(stamp, std::move(depth)); }),
+       &update);
   return update;
 }
 
 EvaluationUpdate PassEvaluation::addPose(const StampedPose& pose) {
   EvaluationUpdate update;
-  take(motion_.addPose(pose), &update);
+  take(times_.measure(motionStage(), [&] { return motion_.addPose(pose); }), &update);
   return update;
 }
 
@@ -259,12 +261,14 @@ void PassEvaluation::evaluateFrame(Entry* entry, EvaluationUpdate* update) {
 void PassEvaluation::scoreFrame(Entry* entry, EvaluationUpdate* update) {
   const LineSet& lines = *entry->lines;
   const LineSet& ground_truth = *entry->ground_truth;
-  FrameRecord record = evaluator_.addFrame(*entry->number, lines, ground_truth);
+  FrameRecord record = times_.measure(
+      Stage::kDetection, [&] { return evaluator_.addFrame(*entry->number, lines, ground_truth); });
   setState(entry, FrameState::kEvaluated);
   entry->record = std::move(record);
   entry->true_ids = ground_truth.lines.empty() || hasIds(ground_truth.lines);
   if (wants(MetricFamily::kAssociation) || wants(MetricFamily::kTracks)) {
-    entry->carried_ids = evaluator_.carriedIds(lines, ground_truth);
+    entry->carried_ids = times_.measure(Stage::kAssociation,
+                                        [&] { return evaluator_.carriedIds(lines, ground_truth); });
   }
   if (wants(MetricFamily::kHeatmap)) {
     ++heatmaps_pending_;

@@ -34,7 +34,7 @@ EvaluationUpdate PassEvaluation::addImage(Stamp stamp) {
     images_alone_.insert(stamp);
   }
   entry.image = true;
-  take(motion_.addImage(stamp), &update);
+  take(times_.measure(motionStage(), [&] { return motion_.addImage(stamp); }), &update);
   settleImages(&update);
   return update;
 }

@@ -26,9 +26,9 @@ EvaluationUpdate PassEvaluation::takeMatches(MatchSet matches) {
     return update;
   }
   if (wants(MetricFamily::kTracks)) {
-    keepForTracks(matches);
+    times_.measure(Stage::kTracks, [&] { keepForTracks(matches); });
   }
-  take(motion_.addMatches(matches), &update);
+  take(times_.measure(Stage::kPose, [&] { return motion_.addMatches(matches); }), &update);
   if (evaluatePair(matches, &update)) {
     return update;
   }
@@ -90,8 +90,10 @@ bool PassEvaluation::evaluatePair(const MatchSet& matches, EvaluationUpdate* upd
     return true;
   }
   try {
-    pair_records_.push_back(evaluator_.addPair(matches, first->second.ground_truth->lines,
-                                               second->second.ground_truth->lines));
+    pair_records_.push_back(times_.measure(Stage::kAssociation, [&] {
+      return evaluator_.addPair(matches, first->second.ground_truth->lines,
+                                second->second.ground_truth->lines);
+    }));
     ++pair_counts_.evaluated;
     update->pairs.push_back(pair_records_.back());
   } catch (const GroundTruthError& error) {
@@ -130,7 +132,9 @@ bool PassEvaluation::evaluateDetectedPair(const MatchSet& matches, EvaluationUpd
     return true;
   }
   try {
-    detected_pair_records_.push_back(evaluator_.addDetectedPair(matches, first_ids, second_ids));
+    detected_pair_records_.push_back(times_.measure(Stage::kAssociation, [&] {
+      return evaluator_.addDetectedPair(matches, first_ids, second_ids);
+    }));
     ++detected_pair_counts_.evaluated;
     update->detected_pairs.push_back(detected_pair_records_.back());
   } catch (const Error& error) {

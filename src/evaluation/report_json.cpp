@@ -125,6 +125,18 @@ Json timingJson(const TimingSummary& timing) {
           {"rate_hz", timing.rate}};
 }
 
+Json stagesJson(const RunTiming& run) {
+  Json object = {{"threads", run.threads},
+                 {"frames", run.frames},
+                 {"wall_s", run.wall},
+                 {"recorded_s", run.recorded}};
+  Json& seconds = object["seconds"] = Json::object();
+  for (int stage = 0; stage < static_cast<int>(Stage::kCount); ++stage) {
+    seconds[toString(static_cast<Stage>(stage))] = run.stages.of(static_cast<Stage>(stage));
+  }
+  return object;
+}
+
 Json intervalJson(const FigureInterval& figure) {
   Json object = {{"family", figure.family}, {"figure", figure.figure}};
   if (figure.step) {
@@ -197,6 +209,9 @@ std::string toJson(const Report& report) {
   root["confidence"] = confidenceJson(report);
   root["timing"] = {{"detector", timingJson(report.detector_timing)},
                     {"associator", timingJson(report.associator_timing)}};
+  if (report.run) {
+    root["timing"]["run"] = stagesJson(*report.run);
+  }
   root["notes"] = report.notes;
   Json provenance = Json::object();
   for (const auto& [key, text] : report.provenance) {

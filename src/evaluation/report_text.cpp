@@ -31,6 +31,28 @@ std::string timingRow(const std::string& name, const TimingSummary& timing) {
          " | " + fixedText(timing.rate, 1) + " | " + std::to_string(timing.frames) + " |\n";
 }
 
+std::string stagesTable(const RunTiming& run) {
+  std::string text = "\n" + std::to_string(run.frames) + " images in " + fixedText(run.wall, 2) +
+                     " s on " + std::to_string(run.threads) +
+                     (run.threads == 1 ? " thread" : " threads");
+  if (run.recorded > 0) {
+    text += ", " + fixedText(run.recorded / run.wall, 1) + " times as fast as they were recorded";
+    if (run.threads == 1) {
+      text += " (without the detector's own time: " +
+              fixedText(run.recorded / (run.wall - run.stages.of(Stage::kDetect)), 1) + ")";
+    }
+  }
+  text += "\n\n| stage | s | ms a frame |\n| --- | ---: | ---: |\n";
+  for (int i = 0; i < static_cast<int>(Stage::kCount); ++i) {
+    const double seconds = run.stages.of(static_cast<Stage>(i));
+    if (seconds > 0) {
+      text += "| " + toString(static_cast<Stage>(i)) + " | " + fixedText(seconds, 3) + " | " +
+              milliseconds(seconds / static_cast<double>(run.frames)) + " |\n";
+    }
+  }
+  return text;
+}
+
 std::string coverageLine(const Report& report) {
   const CoverageCounts& coverage = report.coverage;
   std::string text = std::to_string(coverage.evaluated) + " of " + std::to_string(coverage.seen) +
@@ -129,6 +151,9 @@ std::string toMarkdown(const Report& report) {
       "| --- | ---: | ---: | ---: | ---: |\n";
   text += timingRow("detector", report.detector_timing);
   text += timingRow("associator", report.associator_timing);
+  if (report.run) {
+    text += stagesTable(*report.run);
+  }
   if (!report.notes.empty()) {
     text += "\n## Notes\n\n";
     for (const std::string& note : report.notes) {

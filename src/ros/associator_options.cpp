@@ -2,7 +2,7 @@
 #include "associator_options.h"
 
 #include "changed_names.h"
-#include "evolin_ros/base/settings_tag.h"
+#include "evolin_ros/evaluation/method_source.h"
 #include "node_parameters.h"
 #include "topics.h"
 
@@ -33,18 +33,15 @@ AssociatorOptions readAssociatorOptions(const YAML::Node& parameters, const std:
 }
 
 std::string AssociatorOptions::taggedSource() const {
-  YAML::Node settings(YAML::NodeType::Map);
-  if (parameters.size() > 0) {
-    settings["parameters"] = parameters;
-  }
+  YAML::Node more(YAML::NodeType::Map);
   if (!source.empty() && !named_associator.empty() && associator != named_associator) {
-    settings["associator"] = associator;
+    more["associator"] = associator;
   }
   if (rectify == Rectify::kAlways) {
-    settings["rectify"] = "true";
-    settings["camera"] = camera;
+    more["rectify"] = "true";
+    more["camera"] = camera;
   }
-  return name() + settingsTag(settings);
+  return methodSource(name(), parameters, LineSelection(), more);
 }
 
 std::string AssociatorOptions::needsRestart(const AssociatorOptions& now) const {

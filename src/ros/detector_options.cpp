@@ -2,8 +2,7 @@
 #include "detector_options.h"
 
 #include "changed_names.h"
-#include "evolin_ros/base/settings_tag.h"
-#include "evolin_ros/base/text.h"
+#include "evolin_ros/evaluation/method_source.h"
 #include "node_parameters.h"
 
 namespace evolin::ros_shell {
@@ -42,23 +41,15 @@ DetectorOptions readDetectorOptions(const YAML::Node& parameters, const std::str
 }
 
 std::string DetectorOptions::taggedSource() const {
-  YAML::Node settings(YAML::NodeType::Map);
-  if (parameters.size() > 0) {
-    settings["parameters"] = parameters;
-  }
+  YAML::Node more(YAML::NodeType::Map);
   if (!source.empty() && !named_detector.empty() && detector != named_detector) {
-    settings["detector"] = detector;
-  }
-  if (!selection.keepsAll()) {
-    settings["score_threshold"] = formatDouble(selection.score_threshold);
-    settings["min_length"] = formatDouble(selection.min_length);
-    settings["max_lines"] = std::to_string(selection.max_lines);
+    more["detector"] = detector;
   }
   if (rectify == Rectify::kAlways) {
-    settings["rectify"] = "true";
-    settings["camera"] = camera;
+    more["rectify"] = "true";
+    more["camera"] = camera;
   }
-  return name() + settingsTag(settings);
+  return methodSource(name(), parameters, selection, more);
 }
 
 std::string DetectorOptions::needsRestart(const DetectorOptions& now) const {

@@ -1,17 +1,13 @@
 // Where reports go and what they say of the machine.
 #include "report_keeper.h"
 
-#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <ctime>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
 
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/evaluation/provenance.h"
 #include "node_parameters.h"
 
 namespace evolin::ros_shell {
@@ -20,42 +16,13 @@ namespace {
 
 constexpr char kPassPrefix[] = "pass_";
 
-std::string timeText(const char* format) {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[64];
-  return std::string(text, std::strftime(text, sizeof text, format, &local));
-}
-
-std::string processorName() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    if (line.rfind("model name", 0) == 0) {
-      const std::size_t colon = line.find(':');
-      return colon == std::string::npos ? line : line.substr(std::min(colon + 2, line.size()));
-    }
-  }
-  return "unknown";
-}
-
-std::string machineAsJson() {
-  utsname system{};
-  uname(&system);
-  return nlohmann::ordered_json{{"processor", processorName()},
-                                {"threads", std::thread::hardware_concurrency()},
-                                {"system", std::string(system.sysname) + " " + system.release},
-                                {"architecture", system.machine}}
-      .dump();
-}
-
 /// A folder that did not exist before, even when several nodes start in the same second.
 std::filesystem::path makeNewFolder(const std::string& owner) {
   std::string name = owner;
   name.erase(0, name.find_first_not_of('/'));
   std::replace(name.begin(), name.end(), '/', '_');
   const std::filesystem::path home = expandPath("~/.ros/evolin_ros");
-  const std::string first = timeText("%Y%m%d-%H%M%S") + (name.empty() ? "" : "-" + name);
+  const std::string first = localTime("%Y%m%d-%H%M%S") + (name.empty() ? "" : "-" + name);
   std::error_code problem;
   std::filesystem::create_directories(home, problem);
   for (int number = 1; !problem; ++number) {
@@ -107,8 +74,7 @@ void ReportKeeper::removePasses() {
 }
 
 std::filesystem::path ReportKeeper::write(Report report, int newest_pass) {
-  report.provenance["machine"] = machineAsJson();
-  report.provenance["written"] = nlohmann::json(timeText("%Y-%m-%dT%H:%M:%S%z")).dump();
+  addMachine(&report);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (std::exchange(passes_are_stale_, false)) {
     removePasses();

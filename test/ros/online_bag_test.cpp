@@ -1,18 +1,14 @@
 // A bag, played by scripts/play_bag through detector, associator and evaluator in one manager,
 // gives the figures of an evaluation without any topic between.
 #include <gtest/gtest.h>
-#include <ros/param.h>
-#include <std_srvs/SetBool.h>
 
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <memory>
 
-#include "bag_writer.h"
+#include "bag_run.h"
 #include "evolin_ros/DetectionMetrics.h"
 #include "online_diagnostics.h"
-#include "online_stream.h"
 #include "test/support/drawn_sequence.h"
 #include "test/support/lsd_release.h"
 #include "test/support/shared_data.h"
@@ -22,16 +18,6 @@ namespace {
 
 using Status = diagnostic_msgs::DiagnosticStatus;
 
-const char* const kPlayer = EVOLIN_SOURCE_DIR "/scripts/play_bag";
-
-void writeBag(const std::vector<SequenceFrame>& frames, const std::filesystem::path& file) {
-  BagWriter writer(file);
-  for (const SequenceFrame& frame : frames) {
-    writer.add(frame);
-  }
-  writer.close();
-}
-
 /// What the sha256sum program says of a file.
 std::string sha256(const std::filesystem::path& file) {
   const std::unique_ptr<FILE, int (*)(FILE*)> output(
@@ -40,73 +26,14 @@ std::string sha256(const std::filesystem::path& file) {
   return output != nullptr && std::fscanf(output.get(), "%64s", digits) == 1 ? digits : "";
 }
 
-/// Evaluator, detector and associator on the topics of a bag, and the player.
-class BagRun {
- public:
-  BagRun(const std::filesystem::path& bag, const std::string& detector)
-      : bag_(bag), manager_(testNamespace()) {
-    const std::string& space = manager_.space();
-    ros::param::set(space + "/evaluator/output_dir", folder_.path().string());
-    ros::param::set(space + "/detector/detector", detector);
-    ros::param::set(space + "/player/bag", bag.string());
-    ros::param::set(space + "/player/image_topic", "/camera/rgb/image_color");
-    ros::param::set(space + "/player/wait_for", std::vector<std::string>{"lines", "matches"});
-    ros::param::set(space + "/player/finish", std::vector<std::string>{"evaluator/finish"});
-    for (const char* method : {"detector", "associator"}) {
-      ros::param::set(space + "/" + method + "/lazy", false);
-      ros::param::set(space + "/" + method + "/queue_size", 300);
-    }
-    EXPECT_TRUE(load("evaluator", "Evaluator"));
-    EXPECT_TRUE(load("detector", "LineDetector"));
-    EXPECT_TRUE(load("associator", "LineAssociator", {{"lines", "/ground_truth/lines"}}));
-  }
-
-  const std::string& space() const { return manager_.space(); }
-  std::filesystem::path reportFile() const { return folder_.path() / "report.json"; }
-
-  /// Plays the bag to its end, with `meanwhile` beside it, and gives the report.
-  nlohmann::json play(const std::function<void()>& meanwhile = [] {}) {
-    Process player({"/usr/bin/python3", kPlayer, "__name:=player", "__ns:=" + space()});
-    meanwhile();
-    const std::optional<int> status = player.wait(2 * kPatience);
-    EXPECT_TRUE(status.has_value()) << "the player did not end in time";
-    EXPECT_EQ(status.value_or(-1), 0) << "the player's log says why";
-    return readReport(reportFile());
-  }
-
-  /// Of the rosbag that the player has started.
-  ::testing::AssertionResult setPaused(bool paused) {
-    std_srvs::SetBoolRequest request;
-    request.data = paused;
-    const std::string name = "/" + space().substr(1) + "_player_rosbag/pause_playback";
-    const auto answer = tryService<std_srvs::SetBool>(name, request);
-    return answer && answer->success != 0 ? ::testing::AssertionSuccess()
-                                          : ::testing::AssertionFailure() << name << " refused";
-  }
-
- private:
-  bool load(const std::string& name, const std::string& type,
-            const std::map<std::string, std::string>& more = {}) {
-    std::map<std::string, std::string> remappings = {{"image", "/camera/rgb/image_color"},
-                                                     {"camera_info", "/camera/rgb/camera_info"},
-                                                     {"ground_truth/lines", "/ground_truth/lines"}};
-    remappings.insert(more.begin(), more.end());
-    return manager_.load(name, "evolin_ros/" + type, remappings);
-  }
-
-  std::filesystem::path bag_;
-  TemporaryFolder folder_;
-  Manager manager_;
-};
-
 TEST(OnlineBag, GivesTheReportOfAnEvaluationInProcess) {
   const std::vector<SequenceFrame> frames = drawSequence();
   const TemporaryFolder folder;
   const std::filesystem::path bag = folder.path() / "drawn.bag";
   writeBag(frames, bag);
 
-  BagRun run(bag, availableDetector());
-  const nlohmann::json report = run.play();
+  BagRun run(availableDetector());
+  const nlohmann::json report = run.play(bag);
 
   const Expected expected = evaluateInProcess(frames);
   // Figures that tell methods apart: neither nothing nor everything is right.
@@ -139,9 +66,9 @@ TEST(OnlineBag, AtTenTimesTheSpeedTheReportIsTheSame) {
   writeBag(frames, folder.path() / "drawn.bag");
   ros::param::set(testNamespace() + "/player/rate", 10.0);
   ros::param::set(testNamespace() + "/evaluator/diagnostic_period", 0.1);
-  BagRun run(folder.path() / "drawn.bag", availableDetector());
+  BagRun run(availableDetector());
   const DiagnosticsReader diagnostics(run.space() + "/evaluator");
-  const nlohmann::json report = run.play();
+  const nlohmann::json report = run.play(folder.path() / "drawn.bag");
   EXPECT_TRUE(diagnostics.waitFor("coverage", [](const Status& status) {
     return DiagnosticsReader::valueOf(status, "seen") == "40" &&
            DiagnosticsReader::valueOf(status, "evaluated") == "40";
@@ -197,11 +124,11 @@ TEST(OnlineBag, APauseIsNoEnd) {
   ros::param::set(space + "/evaluator/idle_timeout", 0.5);
   ros::param::set(space + "/evaluator/diagnostic_period", 0.1);
   ros::param::set(space + "/evaluator/diagnostics/silence_warn", 0.5);
-  BagRun run(folder.path() / "drawn.bag", availableDetector());
+  BagRun run(availableDetector());
   Collector<evolin_ros::DetectionMetrics> detection(space + "/metrics/detection/frame");
   ASSERT_TRUE(detection.waitForPublisher());
   const DiagnosticsReader diagnostics(space + "/evaluator");
-  const nlohmann::json report = run.play([&] {
+  const nlohmann::json report = run.play(folder.path() / "drawn.bag", [&] {
     ASSERT_TRUE(detection.waitForCount(10));
     ASSERT_TRUE(run.setPaused(true));
     // Only an evaluator without input writes: it saves what there is, and calls it no end.
@@ -269,8 +196,8 @@ void playSample(const std::string& detector, nlohmann::json* report) {
   const TemporaryFolder folder;
   writeBag(frames, folder.path() / "icl.bag");
 
-  BagRun run(folder.path() / "icl.bag", detector);
-  *report = run.play();
+  BagRun run(detector);
+  *report = run.play(folder.path() / "icl.bag");
 
   Methods methods;
   methods.detector = detector;

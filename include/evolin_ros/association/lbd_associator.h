@@ -15,6 +15,7 @@ struct LbdParameters {
 class LbdAssociator : public LineAssociator {
  public:
   void configure(const YAML::Node& parameters) override;
+  void describe(const FrameLines& lines) override;
   LineMatches match(const FrameLines& first, const FrameLines& second) override;
 
   const LbdParameters& parameters() const { return parameters_; }

@@ -19,6 +19,7 @@ class LbdBinaryAssociator : public LineAssociator {
  public:
   void configure(const YAML::Node& parameters) override;
   std::string whyUnavailable() const override;
+  void describe(const FrameLines& lines) override;
   LineMatches match(const FrameLines& first, const FrameLines& second) override;
 
   const LbdBinaryParameters& parameters() const { return parameters_; }

@@ -26,6 +26,11 @@ class LineAssociator {
 
   virtual Needs needs() const { return {}; }
 
+  /// Fills `lines.description` ahead of the matches that will need it, so that a driver may do this
+  /// for several frames at once, by several instances of the same parameters; a method without
+  /// descriptions leaves it alone. Errors as match().
+  virtual void describe(const FrameLines& /*lines*/) {}
+
   /// Pairs of indices into `first.lines` and `second.lines`, sorted by the first index.
   /// Descriptions are computed once a frame and kept in FrameLines::description.
   virtual LineMatches match(const FrameLines& first, const FrameLines& second) = 0;

@@ -34,6 +34,7 @@ struct SequenceOptions {
   std::optional<int> pose_offset;  ///< image i takes pose row i + N; none: the layout's own rule
   bool allow_missing = false;  ///< images that are absent or unreadable are skipped and counted,
                                ///< not an error; a frame whose depth image is so has no depth
+  bool read_depth = true;      ///< false: frames come without depth, which takes time to decode
   bool same_rows =
       false;  ///< equal annotation rows are the same physical line (no gt_associations needed)
 };

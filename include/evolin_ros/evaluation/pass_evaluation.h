@@ -17,6 +17,7 @@
 #include "evolin_ros/evaluation/motion_evaluation.h"
 #include "evolin_ros/evaluation/report.h"
 #include "evolin_ros/evaluation/sequence_evaluator.h"
+#include "evolin_ros/evaluation/stage_times.h"
 #include "evolin_ros/evaluation/track_follower.h"
 
 namespace evolin {
@@ -137,6 +138,9 @@ class PassEvaluation {
 
   const SequenceEvaluator& evaluator() const { return evaluator_; }
 
+  /// What metrics have taken so far, but for tasks.
+  const StageTimes& stageTimes() const { return times_; }
+
  private:
   struct Entry {
     bool image = false;
@@ -191,8 +195,12 @@ class PassEvaluation {
   void noteOnce(const std::string& text, bool* told, EvaluationUpdate* update);
   void keepNote(const std::string& text);
   bool betweenDetectedLines(const MatchSet& matches) const;
+  Stage motionStage() const {
+    return wants(MetricFamily::kRepeatability) ? Stage::kRepeatability : Stage::kPose;
+  }
 
   PassOptions options_;
+  StageTimes times_;
   SequenceEvaluator evaluator_;
   std::map<Stamp, Entry> entries_;
   std::set<Stamp> held_;               ///< entries that hold lines or ground truth

@@ -11,6 +11,7 @@
 #include "evolin_ros/base/stamp.h"
 #include "evolin_ros/evaluation/metric_family.h"
 #include "evolin_ros/evaluation/motion_evaluation.h"
+#include "evolin_ros/evaluation/stage_times.h"
 #include "evolin_ros/evaluation/task.h"
 #include "evolin_ros/evaluation/track_follower.h"
 #include "evolin_ros/metrics/bootstrap.h"
@@ -225,6 +226,7 @@ struct Report {
   TrackReport tracks;
   TimingSummary detector_timing;
   TimingSummary associator_timing;
+  std::optional<RunTiming> run;                           ///< of runSequence() alone
   std::optional<ReportConfidence> confidence;             ///< addConfidence(); none: not asked for
   std::vector<FrameRecord> frames;                        ///< every frame seen, by stamp
   std::vector<PairRecord> pair_records;                   ///< every pair evaluated, by stamp

@@ -1,0 +1,75 @@
+// Where the time of a run goes, stage by stage.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace evolin {
+
+enum class Stage {
+  kDecode,  ///< from the recording to pixels
+  kDetect,
+  kDescribe,  ///< the associator's descriptions, where it makes them ahead of matching
+  kMatch,
+  kDetection,  ///< this and the following: metric families
+  kHeatmap,
+  kRepeatability,  ///< with the lifting of lines into space, also where only pose needs it
+  kAssociation,    ///< of ground-truth lines and of detected ones
+  kPose,
+  kTracks,
+  kReport,  ///< putting the report together
+  kCount
+};
+
+/// "decode", "detect", ...
+std::string toString(Stage stage);
+
+/// Seconds by stage, summed over threads.
+class StageTimes {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  double of(Stage stage) const { return seconds_[static_cast<std::size_t>(stage)]; }
+  void add(Stage stage, double seconds) { seconds_[static_cast<std::size_t>(stage)] += seconds; }
+  void add(const StageTimes& other) {
+    for (std::size_t i = 0; i < seconds_.size(); ++i) {
+      seconds_[i] += other.seconds_[i];
+    }
+  }
+  double total() const {
+    double sum = 0;
+    for (const double seconds : seconds_) {
+      sum += seconds;
+    }
+    return sum;
+  }
+
+  /// Runs `work`, adds the time it took, and gives what it returns.
+  template <class Work>
+  auto measure(Stage stage, const Work& work) {
+    struct Timer {
+      StageTimes* times;
+      Stage stage;
+      Clock::time_point begin = Clock::now();
+      ~Timer() { times->add(stage, std::chrono::duration<double>(Clock::now() - begin).count()); }
+    };
+    const Timer timer{this, stage};
+    return work();
+  }
+
+ private:
+  std::array<double, static_cast<std::size_t>(Stage::kCount)> seconds_ = {};
+};
+
+/// Of one run over a recording.
+struct RunTiming {
+  StageTimes stages;
+  double wall = 0;      ///< s, from the first frame to the report
+  double recorded = 0;  ///< s between the first and the last image, and one more frame
+  std::size_t frames = 0;
+  int threads = 1;
+};
+
+}  // namespace evolin

@@ -1,0 +1,132 @@
+// What the two kinds of input share has one name.
+#include "recording_input.h"
+
+#include <algorithm>
+#include <boost/program_options/value_semantic.hpp>
+#include <filesystem>
+
+#include "command.h"
+#include "package_files.h"
+
+namespace evolin::cli {
+
+namespace po = boost::program_options;
+
+po::options_description RecordingInput::describe() {
+  po::options_description description("Input");
+  auto add = description.add_options();
+  add("input,i", po::value(&inputs_)->value_name("BAG|DIR")->required()->composing(),
+      "bag or dataset folder; several bags (the option again) are pieces of one recording");
+  add("layout,l", po::value(&layout_)->value_name("NAME")->default_value("auto"),
+      "of a folder: auto, tum, icl or evolin");
+  add("camera,c", po::value(&camera_)->value_name("NAME|FILE"),
+      "camera preset ('evolin list' names them) or YAML file; without it camera_info of the bag, "
+      "or "
+      "calibration_matrix.txt of the folder");
+  add("ground-truth,g", po::value(&ground_truth_)->value_name("DIR"),
+      "folder of annotated lines; without it the lines of the bag, or gt_lines of the folder");
+  add("stamps", po::value(&stamps_)->value_name("FILE"),
+      "with a bag: stamps.txt of --ground-truth where the folder has none");
+  add("start", po::value(&folder_.start)->value_name("S")->default_value(0),
+      "seconds to skip from the first image (of a bag: from its first message)");
+  add("duration", po::value(&duration_)->value_name("S"), "seconds to take; without it all");
+  add("pose-offset", po::value(&pose_offset_)->value_name("N"),
+      "of a folder: image i takes pose row i + N; without it the layout's own rule");
+  add("allow-missing", po::bool_switch(&folder_.allow_missing),
+      "of a folder: skip and count listed images that are absent");
+  add("same-rows", po::bool_switch(&folder_.same_rows),
+      "equal rows of the annotations are the same physical line");
+  add("image-topic", po::value(&bag_.image_topic)->value_name("TOPIC"),
+      "of a bag, as the following: sensor_msgs/Image or CompressedImage; found by type where there "
+      "is one");
+  add("depth-topic", po::value(&bag_.depth_topic)->value_name("TOPIC"),
+      "sensor_msgs/Image of encoding 16UC1 or 32FC1");
+  add("camera-info-topic", po::value(&bag_.camera_info_topic)->value_name("TOPIC"),
+      "without it the one beside the images");
+  add("pose-topic", po::value(&bag_.pose_topic)->value_name("TOPIC"),
+      "PoseStamped, PoseWithCovarianceStamped or Odometry; /tf: out of tf, also where the bag has "
+      "no "
+      "other poses");
+  add("ground-truth-topic", po::value(&bag_.ground_truth_topic)->value_name("TOPIC"),
+      "evolin_ros/LineArray");
+  add("world-frame",
+      po::value(&bag_.world_frame)->value_name("NAME")->default_value(bag_.world_frame),
+      "frame of tf that poses are in");
+  add("depth-factor",
+      po::value(&bag_.depth_factor)->value_name("X")->default_value(bag_.depth_factor, "1000"),
+      "stored units per metre of a bag's 16-bit depth images");
+  return description;
+}
+
+bool RecordingInput::isFolder() const { return std::filesystem::is_directory(inputs_.front()); }
+
+void RecordingInput::check(const po::variables_map& given) {
+  if (!(folder_.start >= 0)) {
+    throw UsageError("--start: expected seconds of at least 0");
+  }
+  if (given.count("duration") != 0) {
+    if (!(duration_ > 0)) {
+      throw UsageError("--duration: expected seconds greater than 0");
+    }
+    folder_.duration = duration_;
+  }
+  if (given.count("pose-offset") != 0) {
+    folder_.pose_offset = pose_offset_;
+  }
+  if (!(bag_.depth_factor > 0)) {
+    throw UsageError("--depth-factor: expected a number greater than 0");
+  }
+  try {
+    folder_.layout = parseLayout(layout_);
+  } catch (const Error& error) {
+    throw UsageError(std::string("--layout: ") + error.what());
+  }
+  const bool folder = isFolder();
+  if (folder && inputs_.size() > 1) {
+    throw UsageError("--input: several inputs must be bags, but " + inputs_.front() +
+                     " is a folder");
+  }
+  const std::vector<const char*> of_folders = {"pose-offset"};
+  const std::vector<const char*> of_bags = {
+      "stamps",     "image-topic",       "depth-topic",
+      "pose-topic", "camera-info-topic", "ground-truth-topic"};
+  for (const char* option : folder ? of_bags : of_folders) {
+    if (given.count(option) != 0) {
+      throw UsageError(std::string("--") + option + " goes with a " + (folder ? "bag" : "folder") +
+                       ", but " + inputs_.front() + " is a " + (folder ? "folder" : "bag"));
+    }
+  }
+  folder_.camera = bag_.camera = camera_;
+  folder_.ground_truth = bag_.ground_truth = ground_truth_;
+  bag_.stamps = stamps_;
+  bag_.same_rows = folder_.same_rows;
+  bag_.start = folder_.start;
+  bag_.duration = folder_.duration;
+  if (!camera_.empty()) {
+    folder_.camera_folder = bag_.camera_folder = cameraFolder();
+  }
+}
+
+std::unique_ptr<PartReader> RecordingInput::open(const WantedParts& wanted,
+                                                 const Needs& needs) const {
+  if (isFolder()) {
+    SequenceOptions options = folder_;
+    options.read_depth = wanted.motion || needs.depth;
+    return openFolderParts(inputs_.front(), options, wanted);
+  }
+  if (needs.depth || needs.pose) {
+    throw UnavailableError(std::string("a plug-in needs ") + (needs.depth ? "depth" : "poses") +
+                           ", which come with the frames of a folder, not with those of a bag");
+  }
+  return openBagParts({inputs_.begin(), inputs_.end()}, bag_, wanted);
+}
+
+std::string RecordingInput::names() const {
+  std::string names;
+  for (const std::string& input : inputs_) {
+    names += (names.empty() ? "" : ", ") + input;
+  }
+  return names;
+}
+
+}  // namespace evolin::cli

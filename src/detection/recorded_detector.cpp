@@ -1,0 +1,52 @@
+// Lines by stamp instead of by pixels.
+#include "evolin_ros/detection/recorded_detector.h"
+
+#include <string>
+
+#include "evolin_ros/base/error.h"
+#include "evolin_ros/base/parameters.h"
+
+namespace evolin {
+
+namespace {
+
+const char* const kOwner = "detector recorded";
+
+}  // namespace
+
+void RecordedDetector::configure(const YAML::Node& parameters) {
+  std::string folder;
+  std::string stamps;
+  ParameterReader reader(parameters, kOwner);
+  reader.read("folder", &folder);
+  reader.read("stamps", &stamps);
+  reader.finish();
+  if (folder.empty()) {
+    throw ConfigError(kOwner, "folder", "not set; expected a folder of line files");
+  }
+  AnnotationFolder read(folder, stamps);
+  if (!read.hasStamps()) {
+    throw ConfigError(kOwner, "folder",
+                      read.folder().string() +
+                          ": which file belongs to which image is unknown: there is no stamps.txt "
+                          "and 'stamps' is not set; it has a line 'stamp file' for every file, as "
+                          "in TUM's lists");
+  }
+  folder_ = std::move(read);
+}
+
+LineSegments RecordedDetector::detect(const Frame& frame) {
+  if (!folder_) {
+    throw Error(std::string(kOwner) + ": detect() was called before configure()");
+  }
+  std::optional<LineSegments> lines = folder_->at(frame.stamp);
+  if (!lines) {
+    throw Error(std::string(kOwner) + ": " + folder_->folder().string() +
+                " has no entry within 0.001 s of " + formatStamp(frame.stamp) +
+                " s (its stamps go " + "from " + formatStamp(*folder_->firstStamp()) + " to " +
+                formatStamp(*folder_->lastStamp()) + ")");
+  }
+  return std::move(*lines);
+}
+
+}  // namespace evolin
