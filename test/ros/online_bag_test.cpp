@@ -92,10 +92,10 @@ TEST(OnlineBag, WhatAMethodLosesAtTenTimesTheSpeedIsTold) {
     ros::param::set(space + "/" + node + "/diagnostic_period", 0.1);
   }
   ros::param::set(space + "/evaluator/diagnostics/in_flight", 0);
-  BagRun run(folder.path() / "drawn.bag", "test_slow");
+  BagRun run("test_slow");
   const DiagnosticsReader evaluator(space + "/evaluator");
   const DiagnosticsReader detector(space + "/detector");
-  const nlohmann::json report = run.play();
+  const nlohmann::json report = run.play(folder.path() / "drawn.bag");
   const nlohmann::json& coverage = report.at("coverage");
   const auto evaluated = coverage.at("evaluated").get<std::size_t>();
   EXPECT_GE(evaluated, 1U);
