@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "evolin_ros/base/error.h"
+#include "test/support/random_lines.h"
 
 namespace evolin {
 namespace {
@@ -57,6 +58,51 @@ TEST(ClassifyAssociation, RepeatedTruePairsAreMisses) {
   const Classification counts = classifyAssociation({{1, 1}}, {{1, 1}, {1, 1}});
   EXPECT_EQ(counts.true_positives, 1U);
   EXPECT_EQ(counts.ground_truth, 2U);
+}
+
+TEST(ClassifyAssociation, IsPerfectOnItselfInAnyOrder) {
+  test::RandomLines random(3);
+  IndexPairs pairs;
+  for (std::int64_t row = 0; row < 50; ++row) {
+    pairs.emplace_back(row, 49 - row);
+  }
+  IndexPairs shuffled = pairs;
+  random.shuffle(&shuffled);
+  const Classification counts = classifyAssociation(shuffled, pairs);
+  EXPECT_EQ(counts.precision(), 1);
+  EXPECT_EQ(counts.recall(), 1);
+  EXPECT_EQ(counts.fScore(), 1);
+}
+
+TEST(ClassifyAssociation, IsBlindToTheOrderOfPairs) {
+  test::RandomLines random(4);
+  for (int round = 0; round < 20; ++round) {
+    IndexPairs truth;
+    IndexPairs predicted;
+    for (std::int64_t row = 0; row < 30; ++row) {
+      truth.emplace_back(row, row);
+      predicted.emplace_back(row, static_cast<std::int64_t>(random.index(3)) == 0 ? row + 1 : row);
+    }
+    const Classification expected = classifyAssociation(predicted, truth);
+    random.shuffle(&truth);
+    random.shuffle(&predicted);
+    const Classification counts = classifyAssociation(predicted, truth);
+    EXPECT_EQ(counts.true_positives, expected.true_positives);
+    EXPECT_EQ(counts.predicted, expected.predicted);
+    EXPECT_EQ(counts.ground_truth, expected.ground_truth);
+    EXPECT_GT(expected.true_positives, 0U);
+    EXPECT_LT(expected.true_positives, 30U);
+  }
+}
+
+TEST(ClassifyAssociation, NothingIsZeroAndNotNaN) {
+  for (const Classification& counts :
+       {classifyAssociation({}, {}), classifyAssociation({{0, 0}}, {}),
+        classifyAssociation({}, {{0, 0}}), AssociationMetrics().classification()}) {
+    EXPECT_EQ(counts.precision(), 0);
+    EXPECT_EQ(counts.recall(), 0);
+    EXPECT_EQ(counts.fScore(), 0);
+  }
 }
 
 TEST(AssociationMetrics, SumsPairsAndReturnsEachOnes) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -192,6 +194,63 @@ TEST(VectorizedProperties, IsBlindToRowsAndEndpointOrder) {
       expectEqual(countsOf(predicted, truth, Protocol::kEvolin, setting, {640, 480}),
                   countsOf(frame.predicted, frame.truth, Protocol::kEvolin, setting, {640, 480}));
     }
+  }
+}
+
+TEST(VectorizedProperties, TheImagesResolutionDoesNotMatter) {
+  for (const RandomFrame& frame : randomFrames(4)) {
+    const auto twice = [](LineSegments lines) {
+      for (LineSegment& line : lines) {
+        line = segment(2 * line.x1, 2 * line.y1, 2 * line.x2, 2 * line.y2, line.score);
+      }
+      return lines;
+    };
+    for (const Protocol protocol : {Protocol::kEvolin, Protocol::kPaper}) {
+      for (std::size_t setting = 0; setting < kSettings; ++setting) {
+        expectEqual(
+            countsOf(twice(frame.predicted), twice(frame.truth), protocol, setting, {1280, 960}),
+            countsOf(frame.predicted, frame.truth, protocol, setting, {640, 480}));
+      }
+    }
+  }
+}
+
+TEST(VectorizedProperties, ShiftsWithTheLinesWithinTheImage) {
+  test::RandomLines random(43);
+  // Far enough from the border that nothing is clamped, on a grid that shifts leave exact.
+  const auto middle = [](LineSegments lines, double dx, double dy) {
+    const auto place = [](double value) { return 32 + std::round(32 * value) / 64; };
+    for (LineSegment& line : lines) {
+      line = segment(place(line.x1) + dx, place(line.y1) + dy, place(line.x2) + dx,
+                     place(line.y2) + dy, line.score);
+    }
+    return lines;
+  };
+  std::uint64_t hits = 0;
+  for (int round = 0; round < 5; ++round) {
+    const LineSegments truth = random.anywhere(15, 120, 120);
+    const LineSegments predicted = random.detectionsOf(truth, 40, 12);
+    for (const Protocol protocol : {Protocol::kEvolin, Protocol::kPaper}) {
+      for (std::size_t setting = 0; setting < kSettings; ++setting) {
+        const Classification here =
+            countsOf(middle(predicted, 0, 0), middle(truth, 0, 0), protocol, setting);
+        expectEqual(countsOf(middle(predicted, 14, -9), middle(truth, 14, -9), protocol, setting),
+                    here);
+        hits += here.true_positives;
+      }
+    }
+  }
+  EXPECT_GT(hits, 100U) << "too few hits to tell";
+}
+
+TEST(VectorizedProperties, NothingIsZeroAndNotNaN) {
+  VectorizedMetrics metrics;
+  metrics.addFrame(0, "f", kUnit, {}, {}, true);
+  for (std::size_t setting = 0; setting < kSettings; ++setting) {
+    EXPECT_EQ(metrics.classification(setting).precision(), 0);
+    EXPECT_EQ(metrics.classification(setting).recall(), 0);
+    EXPECT_EQ(metrics.classification(setting).fScore(), 0);
+    EXPECT_FALSE(metrics.averagePrecision(setting).has_value());
   }
 }
 

@@ -12,6 +12,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 import rostest
+import yaml
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 DEFAULT_DETECTOR = 'opencv_lsd'  # OpenCV 4.1 to 4.5.3 lacks it
@@ -108,6 +109,37 @@ class OnlineLaunch(unittest.TestCase):
         detector = [value for key, value in report['provenance'].items()
                     if key.endswith('/detector')]
         self.assertEqual([entry['detector'] for entry in detector], [self.detector])
+
+    def evaluator_parameters(self, file, name, **arguments):
+        """What the launch file sets for the evaluator `name`."""
+        command = ['roslaunch', '--dump-params', 'evolin_ros', file]
+        command += ['%s:=%s' % item for item in arguments.items()]
+        dump = subprocess.run(command, check=True, timeout=LIMIT, stdout=subprocess.PIPE,
+                              universal_newlines=True).stdout
+        head = name + '/'
+        return {key[len(head):]: value for key, value in yaml.safe_load(dump).items()
+                if key.startswith(head) and not key.startswith(head + 'diagnostics/')}
+
+    def test_arguments_win_over_the_evaluators_file(self):
+        with open(os.path.join(PACKAGE, 'config', 'evaluator.yaml')) as file:
+            shipped = yaml.safe_load(file)
+        own = dict(shipped, bootstrap=11, best_lines=3, metrics=['detection'], save_period=0.25)
+        path = os.path.join(self.folder, 'evaluator.yaml')
+        with open(path, 'w') as file:
+            yaml.safe_dump(own, file)
+        self.assertEqual(self.evaluator_parameters('evaluator.launch', '/evaluator'), shipped)
+        self.assertEqual(self.evaluator_parameters('evaluator.launch', '/evaluator', config=path),
+                         own)
+        self.assertEqual(
+            self.evaluator_parameters('evaluator.launch', '/evaluator', config=path, bootstrap=0,
+                                      metrics='[heatmap, pose]', output_dir='x', frame_step=2,
+                                      heatmap_budget=0, protocol='paper'),
+            dict(own, bootstrap=0, metrics=['heatmap', 'pose'], output_dir='x', frame_step=2,
+                 heatmap_budget=0, protocol='paper'))
+        self.assertEqual(
+            self.evaluator_parameters('evaluate.launch', '/evolin/evaluator', bag='x',
+                                      evaluator_config=path, pose_strategy='robust'),
+            dict(own, pose_strategy='robust', record_parameters=['detector', 'associator']))
 
     def test_a_folder_replaces_the_ground_truth_of_the_bag(self):
         self.assertNotEqual(self.expected['halved']['entries'], self.expected['whole']['entries'])
