@@ -152,6 +152,13 @@ void FieldBuilder::differentiate(const cv::Mat& image, Field* field) {
 }
 
 void FieldBuilder::sortSeeds(Field* field) {
+  if (order_ == SeedOrder::kRows) {
+    field->seeds.clear();
+    for (std::size_t i = 0; i < field->size(); ++i) {
+      if (field->angles[i] != kNoAngle) field->seeds.push_back(static_cast<std::int32_t>(i));
+    }
+    return;
+  }
   const double last_bin = parameters_.bins - 1;
   const double steps = greatest_square_ > 0 ? last_bin / std::sqrt(greatest_square_ / 4.0) : 0;
   const auto binOf = [&](double magnitude) {
@@ -169,7 +176,7 @@ void FieldBuilder::sortSeeds(Field* field) {
         square < kWeakSquares ? bins_of_weak_[square] : binOf(std::sqrt(squares_[i] / 4.0));
     return bin << kBinShift | i;
   };
-  if (parameters_.compatible) {
+  if (order_ == SeedOrder::kIntrosort) {
     keys_.resize(static_cast<std::size_t>(field->width - 1) *
                  static_cast<std::size_t>(field->height - 1));
     auto next = keys_.begin();
