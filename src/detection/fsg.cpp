@@ -23,7 +23,7 @@ LsdParameters segmentParameters() {
 class Fsg::Engine {
  public:
   explicit Engine(const FsgParameters& parameters)
-      : finder_(segmentParameters(), lsd::SeedOrder::kRows),
+      : finder_(segmentParameters(), {lsd::SeedOrder::kRows, false}),
         grouping_(parameters),
         filter_(parameters.selection) {}
 

@@ -105,8 +105,10 @@ void Grouping::sortByLength(cv::Size size) {
   const double bin = std::hypot(size.width, size.height) / parameters_.length_bins;
   order_.resize(segments_.size());
   std::iota(order_.begin(), order_.end(), 0U);
-  std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::floor(segments_[a].length / bin) > std::floor(segments_[b].length / bin);
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double bin_of_a = std::floor(segments_[a].length / bin);
+    const double bin_of_b = std::floor(segments_[b].length / bin);
+    return bin_of_a != bin_of_b ? bin_of_a > bin_of_b : a < b;
   });
 }
 

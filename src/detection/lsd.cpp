@@ -16,8 +16,9 @@ const char* const kOwner = "detector lsd";
 class Lsd::Engine {
  public:
   explicit Engine(const LsdParameters& parameters)
-      : finder_(parameters,
-                parameters.compatible ? lsd::SeedOrder::kIntrosort : lsd::SeedOrder::kStrength),
+      : finder_(
+            parameters,
+            {parameters.compatible ? lsd::SeedOrder::kIntrosort : lsd::SeedOrder::kStrength, true}),
         filter_(parameters.selection) {}
 
   LineSegments detect(const Frame& frame) {

@@ -31,11 +31,18 @@ enum class SeedOrder : std::uint8_t {
   kRows,       ///< row after row
 };
 
+/// Where implementations of LSD differ before regions grow.
+struct FieldStyle {
+  SeedOrder order = SeedOrder::kIntrosort;
+  bool exact_scaling = true;  ///< cv::INTER_LINEAR_EXACT, else cv::INTER_LINEAR; they differ by a
+                              ///< grey level here and there
+};
+
 /// Makes fields of one image after the other in buffers that it keeps.
 class FieldBuilder {
  public:
-  FieldBuilder(const LsdParameters& parameters, SeedOrder order)
-      : parameters_(parameters), order_(order) {}
+  FieldBuilder(const LsdParameters& parameters, const FieldStyle& style)
+      : parameters_(parameters), style_(style) {}
 
   /// `gray`: CV_8UC1. A field of no size where nothing is left after scaling.
   void build(const cv::Mat& gray, Field* field);
@@ -45,7 +52,7 @@ class FieldBuilder {
   void sortSeeds(Field* field);
 
   LsdParameters parameters_;
-  SeedOrder order_;
+  FieldStyle style_;
   double weakest_ = 0;                // least gradient with an angle, grey levels a pixel
   std::int32_t greatest_square_ = 0;  // of what squares_ holds
   cv::Mat smoothed_;

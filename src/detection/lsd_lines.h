@@ -11,8 +11,8 @@ namespace evolin::lsd {
 /// Keeps its buffers from image to image.
 class LineFinder {
  public:
-  LineFinder(const LsdParameters& parameters, SeedOrder order)
-      : parameters_(parameters), builder_(parameters, order), validation_(parameters.compatible) {}
+  LineFinder(const LsdParameters& parameters, const FieldStyle& style)
+      : parameters_(parameters), builder_(parameters, style), validation_(parameters.compatible) {}
 
   /// Lines of `gray` (CV_8UC1) in the order of their seeds, until the next call; scores with the
   /// advanced refinement only.
