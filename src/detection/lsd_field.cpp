@@ -1,4 +1,4 @@
-// Smoothing, scaling, 2x2 gradients, and a counting sort by their strength.
+// Smoothing, scaling, 2x2 gradients, and the order of seeds.
 #include "lsd_field.h"
 
 #include <algorithm>
