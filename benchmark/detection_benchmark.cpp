@@ -3,8 +3,10 @@
 
 #include "benchmark/frames.h"
 #include "evolin_ros/detection/elsed.h"
+#include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/lsd.h"
+#include "evolin_ros/detection/lswms.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -46,7 +48,9 @@ void detectAsNew(benchmark::State& state) {
 
 BENCHMARK_TEMPLATE(detect, Elsed)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detectAsNew, Elsed)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, Fsg)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, Lsd)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, Lswms)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvLsd)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvEdLines)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvFld)->Unit(benchmark::kMillisecond);

@@ -1,14 +1,9 @@
 // LSD: level lines, regions, rectangles, validation.
 #include "evolin_ros/detection/lsd.h"
 
-#include <cmath>
-#include <utility>
-
 #include "evolin_ros/base/error.h"
 #include "grey_image.h"
-#include "lsd_field.h"
-#include "lsd_region.h"
-#include "lsd_validation.h"
+#include "lsd_lines.h"
 
 namespace evolin {
 namespace {
@@ -21,64 +16,19 @@ const char* const kOwner = "detector lsd";
 class Lsd::Engine {
  public:
   explicit Engine(const LsdParameters& parameters)
-      : parameters_(parameters),
-        builder_(parameters),
-        validation_(parameters.compatible),
+      : finder_(
+            parameters,
+            {parameters.compatible ? lsd::SeedOrder::kIntrosort : lsd::SeedOrder::kStrength, true}),
         filter_(parameters.selection) {}
 
   LineSegments detect(const Frame& frame) {
     const cv::Mat& gray = gray_.of(frame.image);
-    builder_.build(gray, &field_);
-    found_.clear();
-    if (field_.size() > 0) {
-      findLines();
-    }
-    return filter_.apply(LineSegments(found_), gray.size(), kOwner);
+    return filter_.apply(finder_.find(gray), gray.size(), kOwner);
   }
 
  private:
-  void findLines() {
-    const double tolerance = parameters_.angle_tolerance * CV_PI / 180;
-    const double chance = parameters_.angle_tolerance / 180;
-    const bool standard = parameters_.refine != "none";
-    const bool advanced = parameters_.refine == "advanced";
-    grower_.start(field_);
-    validation_.start(field_);
-    // Smaller regions cannot be meaningful, however well they are aligned.
-    const auto fewest = static_cast<std::size_t>(-validation_.logTests() / std::log10(chance));
-    for (const std::int32_t seed : field_.seeds) {
-      if (!grower_.isFree(seed)) {
-        continue;
-      }
-      grower_.grow(seed, tolerance);
-      if (grower_.size() < fewest) {
-        continue;
-      }
-      lsd::Rectangle rectangle = grower_.fit(tolerance, chance);
-      if (standard && !grower_.refine(parameters_.density_threshold, &rectangle)) {
-        continue;
-      }
-      double score = kNoScore;
-      if (advanced) {
-        score = validation_.improve(parameters_.log_eps, &rectangle);
-        if (!(score > parameters_.log_eps)) {
-          continue;
-        }
-      }
-      // A level line runs through the corner between four pixels.
-      const auto place = [&](double coordinate) { return (coordinate + 0.5) / parameters_.scale; };
-      found_.push_back({place(rectangle.x1), place(rectangle.y1), place(rectangle.x2),
-                        place(rectangle.y2), score});
-    }
-  }
-
-  LsdParameters parameters_;
   GreyImage gray_;
-  lsd::FieldBuilder builder_;
-  lsd::Field field_;
-  lsd::RegionGrower grower_;
-  lsd::Validation validation_;
-  LineSegments found_;
+  lsd::LineFinder finder_;
   LineFilter filter_;
 };
 

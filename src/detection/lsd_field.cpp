@@ -1,4 +1,4 @@
-// Smoothing, scaling, 2x2 gradients, and a counting sort by their strength.
+// Smoothing, scaling, 2x2 gradients, and the order of seeds.
 #include "lsd_field.h"
 
 #include <algorithm>
@@ -104,7 +104,8 @@ void FieldBuilder::build(const cv::Mat& gray, Field* field) {
     const int radius = static_cast<int>(std::ceil(sigma * std::sqrt(2 * 3 * std::log(10.0))));
     cv::GaussianBlur(gray, smoothed_, cv::Size(2 * radius + 1, 2 * radius + 1), sigma, sigma,
                      cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED);
-    cv::resize(smoothed_, scaled_, size, 0, 0, cv::INTER_LINEAR_EXACT);
+    cv::resize(smoothed_, scaled_, size, 0, 0,
+               style_.exact_scaling ? cv::INTER_LINEAR_EXACT : cv::INTER_LINEAR);
     differentiate(scaled_, field);
   }
   sortSeeds(field);
@@ -152,6 +153,13 @@ void FieldBuilder::differentiate(const cv::Mat& image, Field* field) {
 }
 
 void FieldBuilder::sortSeeds(Field* field) {
+  if (style_.order == SeedOrder::kRows) {
+    field->seeds.clear();
+    for (std::size_t i = 0; i < field->size(); ++i) {
+      if (field->angles[i] != kNoAngle) field->seeds.push_back(static_cast<std::int32_t>(i));
+    }
+    return;
+  }
   const double last_bin = parameters_.bins - 1;
   const double steps = greatest_square_ > 0 ? last_bin / std::sqrt(greatest_square_ / 4.0) : 0;
   const auto binOf = [&](double magnitude) {
@@ -169,7 +177,7 @@ void FieldBuilder::sortSeeds(Field* field) {
         square < kWeakSquares ? bins_of_weak_[square] : binOf(std::sqrt(squares_[i] / 4.0));
     return bin << kBinShift | i;
   };
-  if (parameters_.compatible) {
+  if (style_.order == SeedOrder::kIntrosort) {
     keys_.resize(static_cast<std::size_t>(field->width - 1) *
                  static_cast<std::size_t>(field->height - 1));
     auto next = keys_.begin();

@@ -20,15 +20,29 @@ struct Field {
   int height = 0;
   std::vector<float> angles;        ///< radians from 0 to 2 pi, or kNoAngle
   std::vector<float> magnitudes;    ///< grey levels a pixel; set where there is an angle
-  std::vector<std::int32_t> seeds;  ///< indices of pixels with an angle, strongest bin first
+  std::vector<std::int32_t> seeds;  ///< indices of pixels with an angle
 
   std::size_t size() const { return angles.size(); }
+};
+
+enum class SeedOrder : std::uint8_t {
+  kStrength,   ///< by bins of the gradient's magnitude, rows within a bin: the article
+  kIntrosort,  ///< as OpenCV before 4.8 sorts them
+  kRows,       ///< row after row
+};
+
+/// Where implementations of LSD differ before regions grow.
+struct FieldStyle {
+  SeedOrder order = SeedOrder::kIntrosort;
+  bool exact_scaling = true;  ///< cv::INTER_LINEAR_EXACT, else cv::INTER_LINEAR; they differ by a
+                              ///< grey level here and there
 };
 
 /// Makes fields of one image after the other in buffers that it keeps.
 class FieldBuilder {
  public:
-  explicit FieldBuilder(const LsdParameters& parameters) : parameters_(parameters) {}
+  FieldBuilder(const LsdParameters& parameters, const FieldStyle& style)
+      : parameters_(parameters), style_(style) {}
 
   /// `gray`: CV_8UC1. A field of no size where nothing is left after scaling.
   void build(const cv::Mat& gray, Field* field);
@@ -38,6 +52,7 @@ class FieldBuilder {
   void sortSeeds(Field* field);
 
   LsdParameters parameters_;
+  FieldStyle style_;
   double weakest_ = 0;                // least gradient with an angle, grey levels a pixel
   std::int32_t greatest_square_ = 0;  // of what squares_ holds
   cv::Mat smoothed_;

@@ -17,7 +17,19 @@ constexpr int kFar = 1000;     // pixels: a walk's target
 
 cv::Point2f towardsRight(cv::Point2f v) { return v.x < 0 ? cv::Point2f(-v.x, -v.y) : v; }
 
-int roundedEighth(int value) { return static_cast<int>(std::lrint(std::abs(value) / 8.0)); }
+/// |value| / 8, halves to the even number.
+int roundedEighth(int value) {
+  const int size = std::abs(value);
+  return (size + 3 + (size / 8 & 1)) / 8;
+}
+
+/// Of a gradient (dx, dy), radians; 0 where there is none.
+float angleOf(const std::int16_t* gradient) {
+  if (gradient[1] == 0) {
+    return 0;  // as dx >= 0
+  }
+  return std::atan2(static_cast<float>(gradient[1]), static_cast<float>(gradient[0]));
+}
 
 int squaredDistance(cv::Point a, cv::Point b) {
   const cv::Point d = a - b;
@@ -41,23 +53,25 @@ void Search::buildMaps(const cv::Mat& gray) {
   const std::size_t pixels = maps_.strength.size();
   strength_.resize(pixels);
   std::uint64_t sum = 0;
+  std::int16_t* gradients = maps_.derivatives.data();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const int dx = gradients[2 * i];
+    const int dy = gradients[2 * i + 1];
+    const int strength = std::min(roundedEighth(dx) + roundedEighth(dy), 255);
+    strength_[i] = static_cast<std::uint8_t>(strength);
+    sum += static_cast<std::uint64_t>(strength);
+    gradients[2 * i] = static_cast<std::int16_t>(std::abs(dx));
+    gradients[2 * i + 1] = static_cast<std::int16_t>(dx < 0 ? -dy : dy);
+  }
+  // No line ends in the frame: nothing grows through it.
   const int frame = margin_ + radius_;
   for (int y = 0; y < maps_.height; ++y) {
-    for (int x = 0; x < maps_.width; ++x) {
-      const std::size_t i = maps_.at(x, y);
-      std::int16_t* gradient = maps_.derivatives.data() + 2 * i;
-      const int strength = roundedEighth(gradient[0]) + roundedEighth(gradient[1]);
-      sum += static_cast<std::uint64_t>(std::min(strength, 255));
-      if (x < frame || y < frame || x >= maps_.width - frame || y >= maps_.height - frame) {
-        gradient[0] = gradient[1] = 0;
-        strength_[i] = 0;
-        continue;
-      }
-      strength_[i] = static_cast<std::uint8_t>(std::min(strength, 255));
-      if (gradient[0] < 0) {
-        gradient[0] = static_cast<std::int16_t>(-gradient[0]);
-        gradient[1] = static_cast<std::int16_t>(-gradient[1]);
-      }
+    const bool whole = y < frame || y >= maps_.height - frame;
+    const int width = whole ? maps_.width : std::min(frame, maps_.width);
+    for (const int x : {0, maps_.width - width}) {
+      const std::size_t begin = maps_.at(x, y);
+      std::fill_n(gradients + 2 * begin, 2 * width, std::int16_t{0});
+      std::fill_n(strength_.data() + begin, width, std::uint8_t{0});
     }
   }
   threshold_ = static_cast<int>(sum / pixels);
@@ -70,17 +84,9 @@ void Search::buildMaps(const cv::Mat& gray) {
   }
 }
 
-float Search::rawAngle(std::size_t i) {
-  if (raw_angles_[i] == kUnknown) {
-    const std::int16_t* gradient = maps_.derivatives.data() + 2 * i;
-    raw_angles_[i] = std::atan2(static_cast<float>(gradient[1]), static_cast<float>(gradient[0]));
-  }
-  return raw_angles_[i];
-}
-
 float Search::cachedAngle(std::size_t i) {
   if (angles_[i] == kUnknown) {
-    angles_[i] = rawAngle(i);
+    angles_[i] = angleOf(maps_.derivatives.data() + 2 * i);
   }
   return angles_[i];
 }
@@ -174,48 +180,52 @@ bool Search::shiftOnce(cv::Point p, float angle, cv::Point* offset, float* mean)
   const bool wraps = angle - tolerance_ < -kHalfPi || angle + tolerance_ > kHalfPi;
   const float low = wraps ? -tolerance_ : angle - tolerance_;
   const float high = wraps ? tolerance_ : angle + tolerance_;
-  float weight = 0;
-  float columns = 0;
-  float rows = 0;
+  // Whole numbers that single precision would hold as well.
+  int weight = 0;
+  int columns = 0;
+  int rows = 0;
   float angles = 0;
-  bool any = false;
-  for (int dy = -radius_; dy <= radius_; ++dy) {
-    std::size_t i = maps_.at(p.x - radius_, p.y + dy);
-    for (int dx = -radius_; dx <= radius_; ++dx, ++i) {
-      float value = rawAngle(i);
+  const int side = 2 * radius_ + 1;
+  for (int row = 0; row < side; ++row) {
+    const std::size_t begin = maps_.at(p.x - radius_, p.y - radius_ + row);
+    const std::uint8_t* strengths = strength_.data() + begin;
+    const std::int16_t* gradients = maps_.derivatives.data() + 2 * begin;
+    float* raw = raw_angles_.data() + begin;
+    float* cached = angles_.data() + begin;
+    int row_weight = 0;
+    for (int column = 0; column < side; ++column) {
+      if (raw[column] == kUnknown) {
+        raw[column] = angleOf(gradients + 2 * column);
+      }
+      float value = raw[column];
       bool inside = false;
       if (wraps) {
         // Around the line's angle; the sum of both may then lie beyond a right angle, and stays so
         // for those who read it later.
         value -= angle;
-        if (value < -kHalfPi) {
-          value += kPi;
-        } else if (value > kHalfPi) {
-          value -= kPi;
-        }
+        value += value < -kHalfPi ? kPi : value > kHalfPi ? -kPi : 0.0F;
         inside = value >= low && value <= high;
         value += angle;
       } else {
         inside = value >= low && value <= high;
       }
-      angles_[i] = value;
-      if (inside) {
-        any = true;
-        const auto strength = static_cast<float>(strength_[i]);
-        weight += strength;
-        columns += static_cast<float>(dx + radius_ + 1) * strength;
-        rows += static_cast<float>(dy + radius_ + 1) * strength;
-        angles += value * strength;
-      }
+      cached[column] = value;
+      const int strength = inside ? strengths[column] : 0;
+      row_weight += strength;
+      columns += (column + 1) * strength;
+      angles += value * static_cast<float>(strength);
     }
+    weight += row_weight;
+    rows += (row + 1) * row_weight;
   }
-  if (!any || weight == 0) {
+  if (weight == 0) {
     return false;
   }
-  const float x = columns / weight - 1;
-  const float y = rows / weight - 1;
+  const auto total = static_cast<float>(weight);
+  const float x = static_cast<float>(columns) / total - 1;
+  const float y = static_cast<float>(rows) / total - 1;
   *offset = {static_cast<int>(std::lrint(x)) - radius_, static_cast<int>(std::lrint(y)) - radius_};
-  *mean = angles / weight;
+  *mean = angles / total;
   return true;
 }
 

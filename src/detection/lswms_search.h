@@ -64,7 +64,6 @@ class Search {
   bool isInside(cv::Point p) const {
     return p.x >= 0 && p.y >= 0 && p.x < maps_.width && p.y < maps_.height;
   }
-  float rawAngle(std::size_t i);
   float cachedAngle(std::size_t i);
 
   int radius_;

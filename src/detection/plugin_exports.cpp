@@ -2,15 +2,19 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "evolin_ros/detection/elsed.h"
+#include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/lsd.h"
+#include "evolin_ros/detection/lswms.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
 #include "evolin_ros/detection/recorded_detector.h"
 
 PLUGINLIB_EXPORT_CLASS(evolin::Elsed, evolin::LineDetector)
+PLUGINLIB_EXPORT_CLASS(evolin::Fsg, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Lsd, evolin::LineDetector)
+PLUGINLIB_EXPORT_CLASS(evolin::Lswms, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvLsd, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvEdLines, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvFld, evolin::LineDetector)

@@ -110,7 +110,7 @@ TEST_F(LsdTest, EqualsTheGoldenLines) {
   EXPECT_GE(agreement.scoreShare(), 0.99);
 }
 
-// Without the validation there is no doubt about scores: what OpenCV finds, line for line.
+// Line for line, also where other parameters lead elsewhere than the golden figures.
 TEST_F(LsdTest, EqualsOpenCvWithOtherParameters) {
   EVOLIN_REQUIRE_SHARED_DATA();
   OpenCvLsd library;

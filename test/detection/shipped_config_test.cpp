@@ -8,8 +8,10 @@
 #include <tuple>
 
 #include "evolin_ros/detection/elsed.h"
+#include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/lsd.h"
+#include "evolin_ros/detection/lswms.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -60,6 +62,19 @@ auto values(const LsdParameters& p) {
       selectionValues(p.selection));
 }
 
+auto values(const LswmsParameters& p) {
+  return std::tuple_cat(
+      std::make_tuple(p.radius, p.angle_tolerance, p.max_error, p.score, p.compatible),
+      selectionValues(p.selection));
+}
+
+auto values(const FsgParameters& p) {
+  return std::tuple_cat(
+      std::make_tuple(p.endpoint_error, p.max_overlap, p.max_gap, p.orientation_bins, p.length_bins,
+                      p.segment_density, p.min_line_length),
+      selectionValues(p.selection));
+}
+
 std::filesystem::path configFolder() {
   return std::filesystem::path(EVOLIN_SOURCE_DIR) / "config" / "detectors";
 }
@@ -86,6 +101,10 @@ void expectHoldsAllDefaults(const std::string& name) {
 
 TEST(ShippedDetectorConfig, OwnLsdHoldsAllDefaults) { expectHoldsAllDefaults<Lsd>("lsd"); }
 
+TEST(ShippedDetectorConfig, LswmsHoldsAllDefaults) { expectHoldsAllDefaults<Lswms>("lswms"); }
+
+TEST(ShippedDetectorConfig, FsgHoldsAllDefaults) { expectHoldsAllDefaults<Fsg>("fsg"); }
+
 TEST(ShippedDetectorConfig, LsdHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvLsd>("opencv_lsd");
 }
@@ -103,8 +122,9 @@ TEST(ShippedDetectorConfig, ElsedHoldsAllDefaults) { expectHoldsAllDefaults<Else
 TEST(ShippedDetectorConfig, HoughPHoldsAllDefaults) { expectHoldsAllDefaults<HoughP>("hough_p"); }
 
 TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
-  const std::set<std::string> tested = {"elsed.yaml",          "lsd.yaml",        "opencv_lsd.yaml",
-                                        "opencv_edlines.yaml", "opencv_fld.yaml", "hough_p.yaml"};
+  const std::set<std::string> tested = {"elsed.yaml",      "fsg.yaml",        "lswms.yaml",
+                                        "lsd.yaml",        "opencv_lsd.yaml", "opencv_edlines.yaml",
+                                        "opencv_fld.yaml", "hough_p.yaml"};
   for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
     EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
   }
