@@ -148,13 +148,15 @@ bool Manager::unload(const std::string& name) {
   return answer && answer->success != 0;
 }
 
-::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic) {
-  return waitFor("a listener to " + topic + " of " + node,
-                 [&] { return listenersOf(node, topic) > 0; });
+::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic,
+                                           std::size_t count) {
+  return waitFor(std::to_string(count) + " listeners to " + topic + " of " + node,
+                 [&] { return listenersOf(node, topic) >= count; });
 }
 
-::testing::AssertionResult Manager::waitForListener(const std::string& topic) const {
-  return ::evolin::test::waitForListener(space_ + "/manager", space_ + "/" + topic);
+::testing::AssertionResult Manager::waitForListener(const std::string& topic,
+                                                    std::size_t count) const {
+  return ::evolin::test::waitForListener(space_ + "/manager", space_ + "/" + topic, count);
 }
 
 }  // namespace evolin::test

@@ -37,8 +37,10 @@ class Process {
 /// To how many nodes `node` sends on `topic`, as the node itself says; 0 when it does not answer.
 std::size_t listenersOf(const std::string& node, const std::string& topic);
 
-/// Waits until what `node` publishes on `topic` reaches somebody; both are whole names.
-::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic);
+/// Waits until what `node` publishes on `topic` reaches `count` subscribing nodes; both are whole
+/// names.
+::testing::AssertionResult waitForListener(const std::string& node, const std::string& topic,
+                                           std::size_t count = 1);
 
 /// A nodelet manager in a process of its own, with four threads as manager.launch has it.
 class Manager {
@@ -53,9 +55,9 @@ class Manager {
             const std::map<std::string, std::string>& remappings = {});
   bool unload(const std::string& name);
 
-  /// Waits until what the nodelets publish on `space`/`topic` reaches somebody, in the same manager
-  /// or outside.
-  ::testing::AssertionResult waitForListener(const std::string& topic) const;
+  /// Waits until what the nodelets publish on `space`/`topic` reaches `count` nodes, this manager
+  /// being one when a nodelet of its own listens.
+  ::testing::AssertionResult waitForListener(const std::string& topic, std::size_t count = 1) const;
 
   const std::string& space() const { return space_; }
   Process& process() { return process_; }

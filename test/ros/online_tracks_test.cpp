@@ -128,6 +128,8 @@ class PlVins {
     ASSERT_TRUE(field_.waitForListeners());
     ASSERT_TRUE(lines_->waitForPublisher());
     ASSERT_TRUE(matches_->waitForPublisher());
+    // This process, and the manager with its evaluator.
+    ASSERT_TRUE(field_.manager().waitForListener("lines", 2));
     ASSERT_TRUE(waitFor("the front-end", [&] { return known_.getNumSubscribers() > 0; }));
     const std::string front_end = field_.space() + "/linefeature_tracker";
     ASSERT_TRUE(waitForListener(front_end, front_end + "/linefeature"));
@@ -295,7 +297,8 @@ TEST(OnlineTracks, ComeThroughAnAdapterOfTwentyLines) {
   ASSERT_TRUE(lines.waitForPublisher());
   ASSERT_TRUE(field.waitForListeners());
   ASSERT_TRUE(waitFor("the adapter", [&] { return own.getNumSubscribers() > 0; }));
-  ASSERT_TRUE(waitForListener(field.space() + "/my_lines_adapter", field.space() + "/lines"));
+  ASSERT_TRUE(waitForListener(field.space() + "/my_lines_adapter", field.space() + "/lines", 2))
+      << "this test and the evaluator";
   for (TrackedFrame& frame : frames) {
     geometry_msgs::PolygonStamped message;
     message.header.stamp = ros_shell::toRosTime(frame.found.stamp);

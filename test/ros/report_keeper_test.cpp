@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Report reportOfPass(int pass) {
-  const PassEvaluation pass_evaluation;
+  const PassEvaluation pass_evaluation{PassOptions()};
   Report report = pass_evaluation.report(true);
   report.pass = pass;
   return report;
@@ -27,7 +27,9 @@ Report reportOfPass(int pass) {
 /// ~ is elsewhere for as long as this lives.
 class Home {
  public:
-  Home() : before_(std::getenv("HOME")) { setenv("HOME", folder_.path().c_str(), 1); }
+  Home() : before_(std::getenv("HOME") == nullptr ? "" : std::getenv("HOME")) {
+    setenv("HOME", folder_.path().c_str(), 1);
+  }
   ~Home() { setenv("HOME", before_.c_str(), 1); }
   Home(const Home&) = delete;
   Home& operator=(const Home&) = delete;
