@@ -7,6 +7,7 @@
 #include "list_command.h"
 #include "run_command.h"
 #include "synth_command.h"
+#include "validate_command.h"
 
 int main(int argc, char** argv) {
   const std::vector<evolin::cli::Command> commands = {
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
       evolin::cli::listCommand(),
       evolin::cli::runCommand(),
       evolin::cli::synthCommand(),
+      evolin::cli::validateCommand(),
   };
   return evolin::cli::runProgram(commands, {argv + 1, argv + argc});
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <boost/program_options/value_semantic.hpp>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "evolin_ros/base/sha256.h"
 #include "package_files.h"
 
 namespace evolin::cli {
@@ -127,6 +129,16 @@ std::string RecordingInput::names() const {
     names += (names.empty() ? "" : ", ") + input;
   }
   return names;
+}
+
+std::string RecordingInput::hashes() const {
+  nlohmann::ordered_json object = nlohmann::ordered_json::object();
+  if (!isFolder()) {
+    for (const std::string& input : inputs_) {
+      object[std::filesystem::path(input).filename().string()] = sha256OfFile(input);
+    }
+  }
+  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace evolin::cli

@@ -28,6 +28,9 @@ class RecordingInput {
   /// "a.bag, b.bag".
   std::string names() const;
 
+  /// SHA-256 of each bag by its name, as JSON; an empty object for a folder.
+  std::string hashes() const;
+
  private:
   bool isFolder() const;
 

@@ -175,11 +175,13 @@ std::string parametersText(const RunOptions& options, const MethodChoice& detect
 
 /// One pass in the folder itself, those before it in pass_N.
 void writeReports(std::vector<Report> reports, const std::string& parameters,
-                  const std::string& input, const std::filesystem::path& folder) {
+                  const std::string& input, const std::string& hashes,
+                  const std::filesystem::path& folder) {
   for (Report& report : reports) {
     addMachine(&report);
     report.provenance["parameters"] = parameters;
     report.provenance["input"] = input;
+    report.provenance["sha256"] = hashes;
     const bool newest = report.pass == reports.back().pass;
     writeReport(report, newest ? folder : folder / ("pass_" + std::to_string(report.pass)));
   }
@@ -261,7 +263,7 @@ int runRun(const std::vector<std::string>& arguments) {
   }
   const std::string summary = toMarkdown(result.reports.back());
   writeReports(std::move(result.reports), parametersText(options, detector, associator, evaluation),
-               reader->provenance(), folder.path());
+               reader->provenance(), options.input.hashes(), folder.path());
   writeFileAtomically(folder.path() / kMarker,
                       programVersion() + " run\ninput " + options.input.names() + "\n" +
                           (result.interrupted ? "incomplete\n" : "complete\n"));

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "bag_writer.h"
-#include "evolin_ros/base/error.h"
+#include "evolin_ros/base/sha256.h"
 #include "evolin_ros/evaluation/sequence_run.h"
 #include "plugin_loader.h"
 #include "run_command.h"
@@ -103,6 +103,7 @@ TEST_F(RunTest, TheReportSaysHowItCameAboutAndWhereTheTimeWent) {
   const nlohmann::json& input = made.at("provenance").at("input");
   EXPECT_EQ(input.at("bags").at(0).at("bag"), path("data.bag"));
   EXPECT_EQ(input.at("image_topic"), "/camera/rgb/image_color");
+  EXPECT_EQ(made.at("provenance").at("sha256").at("data.bag"), sha256OfFile(path("data.bag")));
   EXPECT_EQ(made.at("detection").at("source").get<std::string>().rfind("mine#", 0), 0U);
   EXPECT_EQ(made.at("association_detected").at("pairs"), 10);
   EXPECT_FALSE(made.contains("pose"));

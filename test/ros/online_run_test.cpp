@@ -2,9 +2,12 @@
 // the whole bag and from its halves.
 #include <gtest/gtest.h>
 
+#include "associate_command.h"
 #include "bag_run.h"
+#include "detect_command.h"
 #include "evolin_ros/dataset/synthetic/synthetic_sequence.h"
 #include "run_command.h"
+#include "test/support/drawn_sequence.h"
 #include "test/support/shared_data.h"
 
 namespace evolin::test {
@@ -21,11 +24,10 @@ nlohmann::json figuresOf(nlohmann::json report) {
 
 /// The report of `evolin run` on these bags.
 nlohmann::json runOn(const std::vector<std::filesystem::path>& bags, const std::string& detector,
-                     int threads) {
+                     int threads, const std::string& associator = "lbd") {
   const TemporaryFolder folder;
-  std::vector<std::string> arguments = {
-      "run",          "--quiet", "--detector", detector,
-      "--associator", "lbd",     "--threads",  std::to_string(threads)};
+  std::vector<std::string> arguments = {"run", "--quiet", "--threads", std::to_string(threads)};
+  arguments.insert(arguments.end(), {"--detector", detector, "--associator", associator});
   for (const std::filesystem::path& bag : bags) {
     arguments.insert(arguments.end(), {"--input", bag.string()});
   }
@@ -86,6 +88,36 @@ TEST(OnlineRun, SyntheticBag) {
     frames.push_back(sequence.frame(number));
   }
   expectOnlineAndOfflineAgree(frames, availableDetector());
+}
+
+/// Lines and matches that were written to folders go through the nodelets as any method's.
+TEST(OnlineRun, RecordedLinesAndMatches) {
+  const std::vector<SequenceFrame> frames = drawSequence();
+  const TemporaryFolder folder;
+  const std::filesystem::path bag = folder.path() / "drawn.bag";
+  const std::string lines = (folder.path() / "lines").string();
+  const std::string matches = (folder.path() / "matches").string();
+  writeBag(frames, bag);
+  const std::vector<cli::Command> commands = {cli::detectCommand(), cli::associateCommand()};
+  ASSERT_EQ(cli::runProgram(commands, {"detect", "--quiet", "--input", bag.string(), "--detector",
+                                       availableDetector(), "--output", lines}),
+            cli::kExitDone);
+  ASSERT_EQ(cli::runProgram(commands, {"associate", "--quiet", "--input", bag.string(),
+                                       "--associator", "lbd", "--output", matches}),
+            cli::kExitDone);
+  const nlohmann::json offline =
+      figuresOf(runOn({bag}, "recorded:folder=" + lines, 2, "recorded:folder=" + matches));
+  const nlohmann::json direct = figuresOf(runOn({bag}, availableDetector(), 1));
+  expectFiguresOfAllFamilies(offline, frames.size());
+  EXPECT_EQ(offline.at("detection").at("entries"), direct.at("detection").at("entries"));
+  EXPECT_EQ(offline.at("association").at("counts"), direct.at("association").at("counts"));
+  const std::string space = testNamespace();
+  ros::param::set(space + "/evaluator/heatmap_budget", 0);
+  ros::param::set(space + "/detector/parameters/folder", lines);
+  ros::param::set(space + "/associator/associator", "recorded");
+  ros::param::set(space + "/associator/parameters/folder", matches);
+  BagRun run("recorded");
+  EXPECT_EQ(offline, figuresOf(run.play(bag)));
 }
 
 TEST(OnlineRun, IclSample) {
