@@ -9,6 +9,7 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <string>
 #include <utility>
@@ -99,6 +100,7 @@ class EvaluatorNodelet : public SafeNodelet {
 
   /// All inputs share the single-threaded queue, so that each stays in its own order.
   void subscribe() {
+    const std::lock_guard<std::mutex> lock(subscribe_mutex_);
     ros::NodeHandle& handle = getNodeHandle();
     expect(topics::kLines, "evolin_ros/LineArray", "Remap 'lines' to the front-end's topic.");
     expect(topics::kGroundTruthLines, "evolin_ros/LineArray",
@@ -218,14 +220,19 @@ class EvaluatorNodelet : public SafeNodelet {
     }
   }
 
+  /// Messages come as soon as the first subscription stands: they wait until all stand.
+  void waitForSubscriptions() { const std::lock_guard<std::mutex> lock(subscribe_mutex_); }
+
   template <class Add>
   void takeBeside(const std::string& topic, const Add& add) {
+    waitForSubscriptions();
     tell(getNodeHandle().resolveName(topic), session_->takeBeside(add));
   }
 
   template <class Add>
   void take(const std::string& topic, const ros::Subscriber& subscriber,
             const std_msgs::Header& header, const Add& add) {
+    waitForSubscriptions();
     const std::string name = getNodeHandle().resolveName(topic);
     const unsigned publishers = subscriber.getNumPublishers();
     watchdog_->heard(name);
@@ -339,6 +346,7 @@ class EvaluatorNodelet : public SafeNodelet {
   std::unique_ptr<EvaluationSession> session_;
   std::unique_ptr<TopicWatchdog> watchdog_;
   std::unique_ptr<Health> health_;
+  std::mutex subscribe_mutex_;  ///< held while what follows, up to the timers, is being set
   std::unique_ptr<MotionInputs> motion_inputs_;
   ros::Subscriber lines_;
   ros::Subscriber ground_truth_;

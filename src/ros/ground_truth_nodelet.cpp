@@ -26,6 +26,7 @@ class GroundTruthNodelet : public SafeNodelet {
     if (health_) {
       health_->stop();
     }
+    unloadLast();
   }
   GroundTruthNodelet(const GroundTruthNodelet&) = delete;
   GroundTruthNodelet& operator=(const GroundTruthNodelet&) = delete;

@@ -32,6 +32,7 @@ class LineAssociatorNodelet : public SafeNodelet {
   /// The pair that is worked on is finished; nothing of this object is used by then.
   ~LineAssociatorNodelet() override {
     if (!queue_) {
+      unloadLast();
       return;
     }
     health_->stop();
@@ -40,6 +41,7 @@ class LineAssociatorNodelet : public SafeNodelet {
     const std::string drops = health_->dropsText();
     NODELET_INFO("%zu frames done; left out: %s", health_->finishedCount(),
                  drops.empty() ? "none" : drops.c_str());
+    unloadLast();
   }
 
  private:
@@ -94,6 +96,7 @@ class LineAssociatorNodelet : public SafeNodelet {
   }
 
   std::shared_ptr<const Settings> makeSettings(const AssociatorOptions& options) {
+    const LibraryLock lock = lockLibraries();
     auto settings = std::make_shared<Settings>();
     settings->options = options;
     settings->associator = loader_.loadAssociator(options.associator);
@@ -140,6 +143,7 @@ class LineAssociatorNodelet : public SafeNodelet {
 
   /// Called at every change of listeners, from any thread.
   void connect() {
+    const LibraryLock libraries = lockLibraries();
     const std::lock_guard<std::mutex> lock(connect_mutex_);
     if (!first_.lazy) {
       return;

@@ -33,6 +33,7 @@ class LineDetectorNodelet : public SafeNodelet {
   /// The image that is worked on is finished; nothing of this object is used by then.
   ~LineDetectorNodelet() override {
     if (!queue_) {
+      unloadLast();
       return;
     }
     health_->stop();
@@ -41,6 +42,7 @@ class LineDetectorNodelet : public SafeNodelet {
     const std::string drops = health_->dropsText();
     NODELET_INFO("%zu images done; left out: %s", health_->finishedCount(),
                  drops.empty() ? "none" : drops.c_str());
+    unloadLast();
   }
 
  private:
@@ -92,6 +94,7 @@ class LineDetectorNodelet : public SafeNodelet {
   }
 
   std::shared_ptr<const Settings> makeSettings(const DetectorOptions& options) {
+    const LibraryLock lock = lockLibraries();
     auto settings = std::make_shared<Settings>();
     settings->options = options;
     settings->detector = loader_.loadDetector(options.detector);
@@ -204,6 +207,7 @@ class LineDetectorNodelet : public SafeNodelet {
 
   /// Called at every change of listeners, from any thread.
   void connect() {
+    const LibraryLock libraries = lockLibraries();
     const std::lock_guard<std::mutex> lock(connect_mutex_);
     if (!first_.lazy) {
       return;

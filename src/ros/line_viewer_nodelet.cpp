@@ -30,6 +30,14 @@
 namespace evolin::ros_shell {
 
 class LineViewerNodelet : public SafeNodelet {
+ public:
+  LineViewerNodelet() = default;
+  ~LineViewerNodelet() override { unloadLast(); }
+  LineViewerNodelet(const LineViewerNodelet&) = delete;
+  LineViewerNodelet& operator=(const LineViewerNodelet&) = delete;
+  LineViewerNodelet(LineViewerNodelet&&) = delete;
+  LineViewerNodelet& operator=(LineViewerNodelet&&) = delete;
+
  private:
   /// Wall time without any part until frames that wait for one are shown without it, s.
   static constexpr double kIdle = 0.5;
@@ -56,6 +64,7 @@ class LineViewerNodelet : public SafeNodelet {
 
   /// Called at every change of listeners, from any thread.
   void connect() {
+    const LibraryLock libraries = lockLibraries();
     const std::lock_guard<std::mutex> lock(connect_mutex_);
     follow();
   }

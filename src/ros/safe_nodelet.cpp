@@ -21,10 +21,17 @@ SafeNodelet::SafeNodelet() = default;
 
 SafeNodelet::~SafeNodelet() = default;
 
+SafeNodelet::LibraryLock SafeNodelet::lockLibraries() {
+  // One for the process, as class_loader's list is.
+  static std::recursive_mutex mutex;
+  return LibraryLock(mutex);
+}
+
 void SafeNodelet::onInit() {
   single_threaded_queue_ = hold(getSTCallbackQueue());
   multi_threaded_queue_ = hold(getMTCallbackQueue());
   try {
+    const LibraryLock lock = lockLibraries();
     start();
   } catch (const std::exception& error) {
     NODELET_FATAL("%s", error.what());

@@ -4,6 +4,7 @@
 #include <nodelet/nodelet.h>
 
 #include <boost/shared_ptr.hpp>
+#include <mutex>
 
 namespace nodelet::detail {
 class CallbackQueue;
@@ -28,8 +29,20 @@ class SafeNodelet : public nodelet::Nodelet {
   /// nodelet.
   virtual void start() = 0;
 
+  /// Held while libraries of plug-ins (ours, or transports of images) are loaded or unloaded: in
+  /// one thread of the process at a time, since class_loader's own list of them is not safe.
+  /// start() has it; so must what loads later, before any other lock.
+  using LibraryLock = std::unique_lock<std::recursive_mutex>;
+  [[nodiscard]] static LibraryLock lockLibraries();
+
+  /// The last thing in the destructor of a nodelet that holds plug-ins or transports: they unload
+  /// with its members, on whatever thread has let go of the nodelet last.
+  void unloadLast() { unloading_ = lockLibraries(); }
+
  private:
   void onInit() final;
+
+  LibraryLock unloading_;  ///< until all members of the classes that derive are gone
 
   // A base's members outlive those of the classes that derive from it.
   boost::shared_ptr<nodelet::detail::CallbackQueue> single_threaded_queue_;

@@ -21,6 +21,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "conversions.h"
 #include "evolin_ros/LineArray.h"
@@ -193,7 +194,8 @@ void writeAnnotations(const std::filesystem::path& folder) {
 /// Somebody who looks: without him a viewer does nothing.
 template <class Message>
 ros::Subscriber lookAt(ros::NodeHandle* handle, const std::string& topic) {
-  return handle->subscribe<Message>(topic, 1, [](const boost::shared_ptr<const Message>&) {});
+  const boost::function<void(const boost::shared_ptr<const Message>&)> look = [](const auto&) {};
+  return handle->subscribe<Message>(topic, 1, look);
 }
 
 /// The order of unloading changes from round to round.

@@ -52,6 +52,9 @@ class AdapterCamera {
   /// None until the camera is known.
   const AdapterView* view() const { return view_ ? &*view_ : nullptr; }
 
+  /// No callback runs once this has returned.
+  void stop() { camera_info_.shutdown(); }
+
   /// Whether it is camera_info that tells.
   bool isAwaited() const { return options_.camera.empty(); }
 

@@ -61,6 +61,14 @@ class CameraAdapter : public SafeNodelet {
                  camera_->isAwaited() ? " and for camera_info" : "");
   }
 
+  /// First in the destructor of a class that derives: convert() is not called any more.
+  void end() {
+    input_.shutdown();
+    if (camera_) {
+      camera_->stop();
+    }
+  }
+
   /// `set` with stamp, frame, source and the view's size filled in.
   void publish(LineSet* set, const ros::Time& stamp, const AdapterView& view) {
     set->stamp = fromRos(stamp);

@@ -15,6 +15,14 @@
 namespace evolin::ros_shell {
 
 class MarkerLinesNodelet : public CameraAdapter<visualization_msgs::Marker> {
+ public:
+  MarkerLinesNodelet() = default;
+  ~MarkerLinesNodelet() override { end(); }
+  MarkerLinesNodelet(const MarkerLinesNodelet&) = delete;
+  MarkerLinesNodelet& operator=(const MarkerLinesNodelet&) = delete;
+  MarkerLinesNodelet(MarkerLinesNodelet&&) = delete;
+  MarkerLinesNodelet& operator=(MarkerLinesNodelet&&) = delete;
+
  private:
   void start() override {
     std::string pixels = "distorted";

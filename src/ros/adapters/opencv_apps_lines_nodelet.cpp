@@ -10,6 +10,14 @@
 namespace evolin::ros_shell {
 
 class OpencvAppsLinesNodelet : public CameraAdapter<opencv_apps::LineArrayStamped> {
+ public:
+  OpencvAppsLinesNodelet() = default;
+  ~OpencvAppsLinesNodelet() override { end(); }
+  OpencvAppsLinesNodelet(const OpencvAppsLinesNodelet&) = delete;
+  OpencvAppsLinesNodelet& operator=(const OpencvAppsLinesNodelet&) = delete;
+  OpencvAppsLinesNodelet(OpencvAppsLinesNodelet&&) = delete;
+  OpencvAppsLinesNodelet& operator=(OpencvAppsLinesNodelet&&) = delete;
+
  private:
   void start() override {
     std::string direction = "from";

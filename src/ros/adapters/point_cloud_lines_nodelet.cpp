@@ -17,6 +17,14 @@
 namespace evolin::ros_shell {
 
 class PointCloudLinesNodelet : public CameraAdapter<sensor_msgs::PointCloud> {
+ public:
+  PointCloudLinesNodelet() = default;
+  ~PointCloudLinesNodelet() override { end(); }
+  PointCloudLinesNodelet(const PointCloudLinesNodelet&) = delete;
+  PointCloudLinesNodelet& operator=(const PointCloudLinesNodelet&) = delete;
+  PointCloudLinesNodelet(PointCloudLinesNodelet&&) = delete;
+  PointCloudLinesNodelet& operator=(PointCloudLinesNodelet&&) = delete;
+
  private:
   void start() override {
     std::string pixels = "distorted";
