@@ -17,9 +17,15 @@ std::size_t allocations() { return count; }
 
 }  // namespace evolin::test
 
-void* operator new(std::size_t size) {
+// Sanitizers bring operators of their own for what is not replaced, and memory must come and go by
+// the same pair.
+void* operator new(std::size_t size, const std::nothrow_t& /*unused*/) noexcept {
   ++count;
-  void* memory = std::malloc(size == 0 ? 1 : size);
+  return std::malloc(size == 0 ? 1 : size);
+}
+
+void* operator new(std::size_t size) {
+  void* memory = operator new(size, std::nothrow);
   if (memory == nullptr) {
     throw std::bad_alloc();
   }
@@ -28,3 +34,4 @@ void* operator new(std::size_t size) {
 
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t& /*unused*/) noexcept { std::free(memory); }
