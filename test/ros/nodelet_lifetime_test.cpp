@@ -56,9 +56,10 @@ class NodeletLifetime : public ::testing::Test {
     const int port = freePort();
     setenv("ROS_MASTER_URI", ("http://localhost:" + std::to_string(port)).c_str(), 1);
     setenv("ROS_HOSTNAME", "localhost", 1);
-    // Of foreign libraries alone, by name; without a sanitizer nobody reads them.
+    // Of foreign libraries alone, by name, which needs both stacks of a race; without a sanitizer
+    // nobody reads them.
     const std::string folder = std::string(EVOLIN_SOURCE_DIR) + "/test/sanitizers/";
-    setenv("TSAN_OPTIONS", ("suppressions=" + folder + "thread.supp").c_str(), 0);
+    setenv("TSAN_OPTIONS", ("suppressions=" + folder + "thread.supp history_size=7").c_str(), 0);
     setenv("LSAN_OPTIONS", ("suppressions=" + folder + "leak.supp").c_str(), 0);
     master_ = std::make_unique<Process>(
         std::vector<std::string>{"rosmaster", "--core", "-p", std::to_string(port)});
@@ -118,7 +119,11 @@ TEST_F(NodeletLifetime, AnInterruptAtAnyMomentLeavesWhatASavePeriodAgoWasThere) 
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     before = evaluated();
     process.send(SIGINT);
-    ASSERT_EQ(process.wait(120), std::optional<int>(0)) << "a sanitizer's findings are above";
+    const std::optional<int> status = process.wait(120);
+    // Before ROS has started nobody takes the signal.
+    const bool before_start = before == 0 && evaluated() == 0 && status == -SIGINT;
+    ASSERT_TRUE(before_start || status == 0)
+        << "status " << status.value_or(-1000) << ": a sanitizer's findings are above";
     // Strict JSON, and nothing that was on disk has been lost.
     EXPECT_GE(evaluated(), before);
     EXPECT_GE(evaluated(), round % 2 == 1 ? 3U : 0U);
