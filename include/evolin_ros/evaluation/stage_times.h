@@ -38,28 +38,28 @@ class StageTimes {
       seconds_[i] += other.seconds_[i];
     }
   }
-  double total() const {
-    double sum = 0;
-    for (const double seconds : seconds_) {
-      sum += seconds;
-    }
-    return sum;
-  }
 
   /// Runs `work`, adds the time it took, and gives what it returns.
   template <class Work>
   auto measure(Stage stage, const Work& work) {
-    struct Timer {
-      StageTimes* times;
-      Stage stage;
-      Clock::time_point begin = Clock::now();
-      ~Timer() { times->add(stage, std::chrono::duration<double>(Clock::now() - begin).count()); }
-    };
-    const Timer timer{this, stage};
+    const Timer timer(this, stage);
     return work();
   }
 
  private:
+  class Timer {
+   public:
+    Timer(StageTimes* times, Stage stage) : times_(times), stage_(stage) {}
+    ~Timer() { times_->add(stage_, std::chrono::duration<double>(Clock::now() - begin_).count()); }
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+
+   private:
+    StageTimes* times_;
+    Stage stage_;
+    Clock::time_point begin_ = Clock::now();
+  };
+
   std::array<double, static_cast<std::size_t>(Stage::kCount)> seconds_ = {};
 };
 
