@@ -116,7 +116,8 @@ TEST(OnlineOperation, WhatComesWhilePausedIsSkippedAndTheReportIsThereForTheAski
   ASSERT_TRUE(waitForCoverage("skipped", 4));
   EXPECT_TRUE(diagnostics.waitFor("coverage", [](const Status& status) {
     return status.level == Status::WARN && DiagnosticsReader::valueOf(status, "skipped") == "4" &&
-           status.message == "4 of 8 frames that are due were evaluated; paused";
+           status.message.find("4 of 8 frames that are due were evaluated") == 0 &&
+           status.message.find("; paused") != std::string::npos;
   }));
   ASSERT_TRUE(pause(false));
   ASSERT_TRUE(bench.play({frames.begin() + 8, frames.end()}, 0));
@@ -138,7 +139,7 @@ TEST(OnlineOperation, GroundTruthOfAThirdIsAnErrorOfCoverage) {
   ASSERT_TRUE(bench.play(frames));
   EXPECT_TRUE(diagnostics.waitFor("coverage", [](const Status& status) {
     return status.level == Status::ERROR &&
-           status.message == "12 of 34 frames that are due were evaluated";
+           status.message.find("12 of 34 frames that are due were evaluated") == 0;
   }));
   bench.call("finish");
   const nlohmann::json report = bench.report();
