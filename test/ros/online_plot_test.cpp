@@ -41,8 +41,11 @@ std::vector<std::string> documentedFields() {
 
 /// The first number that rostopic echo prints; whatever else it prints is a failure.
 double echo(const std::string& path) {
-  const std::string command = "timeout " + std::to_string(static_cast<int>(kPatience)) +
-                              " rostopic echo -n1 '" + path + "' 2>&1";
+  // catkin's environment of tests is written before there is a folder of Python messages, and then
+  // lacks it for as long as the build lives.
+  const std::string command = "PYTHONPATH='" EVOLIN_PYTHON_DIR "':\"$PYTHONPATH\" timeout " +
+                              std::to_string(static_cast<int>(kPatience)) + " rostopic echo -n1 '" +
+                              path + "' 2>&1";
   FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) {
     ADD_FAILURE() << "cannot run: " << command;
