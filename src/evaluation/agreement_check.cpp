@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 
 #include "evolin_ros/base/text.h"
@@ -110,12 +111,16 @@ void AgreementCheck::add(const StreamPart& part) {
 void AgreementCheck::addImage(const ImagePart& image) {
   const std::size_t number = stamps_.size();
   stamps_.push_back(image.frame.stamp);
+  if (number == 1 && stamps_[1] > stamps_[0]) {
+    step_ = static_cast<std::size_t>(
+        std::clamp<std::int64_t>(std::llround(kSpan / toSeconds(stamps_[1] - stamps_[0])), 1, 30));
+  }
   if (image.frame.image.empty()) {
     return;
   }
   const bool begins = number % stride_ == 0 && anchors_.size() < kAnchors;
-  const auto waiting = std::find_if(anchors_.begin(), anchors_.end(), [number](const Anchor& a) {
-    return a.number + kStep == number;
+  const auto waiting = std::find_if(anchors_.begin(), anchors_.end(), [&](const Anchor& anchor) {
+    return anchor.number + step_ == number;
   });
   if (!begins && waiting == anchors_.end()) {
     return;
@@ -157,7 +162,7 @@ std::vector<Finding> AgreementCheck::findings() const {
   PhotometricAgreement agreement(*camera_, trajectory_, stamps_, kWorstError);
   for (const Anchor& anchor : anchors_) {
     if (anchor.depth && !anchor.later.empty()) {
-      agreement.add({anchor.number, anchor.number + kStep}, anchor.gray, *anchor.depth,
+      agreement.add({anchor.number, anchor.number + step_}, anchor.gray, *anchor.depth,
                     anchor.later);
     }
   }
@@ -165,7 +170,7 @@ std::vector<Finding> AgreementCheck::findings() const {
   if (pairs < kFewestPairs) {
     return {{Level::kDoubt, kSubject,
              "cannot be measured: " + std::to_string(pairs) + " pairs of images " +
-                 std::to_string(kStep) + " apart have edges with depth, and poses; expected " +
+                 std::to_string(step_) + " apart have edges with depth, and poses; expected " +
                  std::to_string(kFewestPairs),
              ""}};
   }

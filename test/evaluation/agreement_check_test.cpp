@@ -171,7 +171,7 @@ TEST(AgreementCheck, PosesThatAreNeverNearAnImageAreSaid) {
   const std::vector<Finding> findings = findingsOf(spoil);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].level, Finding::Level::kDoubt);
-  EXPECT_EQ(findings[0].text.rfind("cannot be measured: 0 pairs of images 4 apart", 0), 0U)
+  EXPECT_EQ(findings[0].text.rfind("cannot be measured: 0 pairs of images 1 apart", 0), 0U)
       << findings[0].text;
 }
 

@@ -34,8 +34,9 @@ struct Reading {
 class AgreementCheck {
  public:
   static constexpr std::size_t kAnchors = 40;
-  /// Images between the two of a pair: enough motion to tell readings apart at 30 Hz.
-  static constexpr std::size_t kStep = 4;
+  /// Seconds between the two images of a pair, as near as the rate allows: enough motion to tell
+  /// readings apart.
+  static constexpr double kSpan = 0.13;
   /// Mean errors are of grey levels of 0 to 255; an edge pixel counts for no more than this, also
   /// where it leaves the image.
   static constexpr double kWorstError = 30;
@@ -58,13 +59,14 @@ class AgreementCheck {
     cv::Mat gray;            ///< CV_8UC1
     std::optional<DepthMap> depth;
     Stamp depth_distance = 0;
-    cv::Mat later;  ///< the image kStep after it; empty until it came
+    cv::Mat later;  ///< the image `step_` after it; empty until it came
   };
 
   void addImage(const ImagePart& image);
   void offerDepth(const DepthPart& depth, Anchor* anchor) const;
 
   std::size_t stride_;
+  std::size_t step_ = 1;  ///< images from the first to the second of a pair
   Stamp max_time_difference_;
   std::vector<Stamp> stamps_;  ///< of all images
   std::deque<DepthPart> recent_depths_;
