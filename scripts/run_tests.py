@@ -33,6 +33,8 @@ class Program:
         match = re.match(r"_ctest_.+?_(gtest|gmock|nosetests|rostest|roslaunch-check)_(.*)", entry["name"])
         self.kind = match.group(1) if match else "program"
         self.name = match.group(2) if match else entry["name"]
+        # What make must build for it; everything where a target of its own does not suffice.
+        self.targets = [self.name] if self.kind == "gtest" else ["all", "tests"]
         self.results = None
         for wrapper, results in zip(self.command, self.command[1:]):
             if os.path.basename(wrapper) == "run_tests.py":
@@ -61,6 +63,12 @@ def list_programs(build):
     text = subprocess.run(["ctest", "--show-only=json-v1"], cwd=build, check=True,
                           stdout=subprocess.PIPE).stdout
     return [Program(entry) for entry in json.loads(text)["tests"] if "command" in entry]
+
+
+def targets_of(programs):
+    """Build targets of the programs, each once; 'all' and 'tests' alone where one needs everything."""
+    names = list(dict.fromkeys(target for program in programs for target in program.targets))
+    return ["all", "tests"] if "all" in names else names
 
 
 def read_cases(path):
@@ -276,6 +284,7 @@ def parse_arguments():
     parser.add_argument("--build", required=True, help="the workspace's build folder")
     parser.add_argument("--only", metavar="REGEX", help="only programs in whose name it is found")
     parser.add_argument("--list", action="store_true", help="print the names, run none")
+    parser.add_argument("--targets", action="store_true", help="print what must be built for them, run none")
     parser.add_argument("--no-rostest", action="store_true", help="leave rostests out")
     parser.add_argument("--time-limit", type=float, default=600, help="seconds for a program")
     arguments = parser.parse_args()
@@ -302,6 +311,10 @@ def main():
             print("no test program matches %r; there are:" % arguments.only.pattern, file=sys.stderr)
             for program in known:
                 print("  " + program.name, file=sys.stderr)
+    if arguments.targets:
+        for target in targets_of(programs):
+            print(target)
+        return 0 if programs else 1
     if arguments.list:
         for program in programs:
             print(program.name)

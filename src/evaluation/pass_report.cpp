@@ -55,27 +55,43 @@ PassSums PassEvaluation::sums() const {
           poseStep()};
 }
 
-bool PassEvaluation::waiting() const {
+bool PassEvaluation::waitsForLines(Stamp stamp, const Entry& entry) const {
+  if (entry.record.lines || entry.record.state != FrameState::kWaiting ||
+      left_out_lines_.count(stamp) != 0) {
+    return false;
+  }
+  const bool passed_over = lines_in_order_ && newest_lines_ && stamp < *newest_lines_;
+  const bool alone = !entry.record.ground_truth;
+  return !passed_over && !(alone && standsForAnother(stamp));
+}
+
+/// Whether the frame has the lines that matches are between, as far as that is known.
+bool PassEvaluation::isMatched(const Entry& entry) const {
+  const bool on_ground_truth =
+      newest_matches_ ? matches_lines_source_ == ground_truth_source_ : lines_seen_ == 0;
+  return on_ground_truth ? entry.record.ground_truth.has_value() : entry.record.lines.has_value();
+}
+
+bool PassEvaluation::waiting(const MayCome& may_come) const {
   if (hasPendingTasks()) {
     return true;
   }
+  if (entries_.empty()) {
+    return may_come.first_matches;
+  }
   std::optional<Stamp> newest;
   for (const auto& [stamp, entry] : entries_) {
-    const bool has_lines = entry.record.lines.has_value();
-    const bool alone = !has_lines && !entry.record.ground_truth;
-    const bool passed_over = lines_in_order_ && newest_lines_ && stamp < *newest_lines_;
-    if (!has_lines && entry.record.state == FrameState::kWaiting && !passed_over &&
-        !(alone && standsForAnother(stamp))) {
+    if (may_come.lines && waitsForLines(stamp, entry)) {
       return true;
     }
-    const bool matched_lines = matches_lines_source_ == ground_truth_source_
-                                   ? entry.record.ground_truth.has_value()
-                                   : has_lines;
-    if (matched_lines) {
+    if (isMatched(entry) && left_out_matches_.count(stamp) == 0) {
       newest = stamp;
     }
   }
-  return newest_matches_ && newest && *newest_matches_ < *newest;
+  if (!newest_matches_) {
+    return may_come.first_matches && newest;
+  }
+  return may_come.matches && newest && *newest_matches_ < *newest;
 }
 
 Report PassEvaluation::report(bool complete) const {

@@ -283,7 +283,9 @@ bool StreamEvaluator::hasPendingTasks() const {
                      [](const auto& pass) { return pass.second.hasPendingTasks(); });
 }
 
-bool StreamEvaluator::waiting() const { return current().waiting() || hasPendingTasks(); }
+bool StreamEvaluator::waiting(const MayCome& may_come) const {
+  return current().waiting(may_come) || hasPendingTasks();
+}
 
 void StreamEvaluator::reset() {
   const std::uint64_t generation = generation_ + 1;

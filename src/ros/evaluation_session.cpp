@@ -270,26 +270,26 @@ void EvaluationSession::saveWhenIdle() {
 }
 
 bool EvaluationSession::drain(const std::function<bool()>& stopped,
-                              const std::function<bool()>& first_match_due) {
-  const bool all = waitForTheRest(stopped, first_match_due);
+                              const std::function<MayCome()>& may_come) {
+  const bool all = waitForTheRest(stopped, may_come);
   giveUpTasks();
   return all;
 }
 
 bool EvaluationSession::waitForTheRest(const std::function<bool()>& stopped,
-                                       const std::function<bool()>& first_match_due) {
+                                       const std::function<MayCome()>& may_come) {
   constexpr double kSettled = 0.3;
   // A slow method's next result may be a few of its longest pauses away.
   constexpr double kPauses = 4;
   constexpr double kLongest = 30;
   while (!stopped()) {
-    const bool match_due = first_match_due();
+    const MayCome awaited = may_come();
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       const double idle = (ros::WallTime::now() - last_input_).toSec();
       const double patience =
           std::max(options_.drain_timeout, std::min(kPauses * longest_gap_, kLongest));
-      if (idle > (evaluator_.waiting() || match_due ? patience : kSettled)) {
+      if (idle > (evaluator_.waiting(awaited) ? patience : kSettled)) {
         return true;
       }
     }

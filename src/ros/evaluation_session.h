@@ -69,6 +69,15 @@ class EvaluationSession {
     return takeIn(nullptr, add);
   }
 
+  /// No lines, or no matches, of a frame will come: `leave_out` is called with the evaluator under
+  /// the lock.
+  template <class LeaveOut>
+  void leaveOut(const LeaveOut& leave_out) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    noteInput(true);
+    leave_out(&evaluator_);
+  }
+
   /// Sums cost more than a frame's own figures (average precision sorts all predictions), so they
   /// go out at a period of their own, unless `now`.
   void publishSums(bool now);
@@ -96,11 +105,10 @@ class EvaluationSession {
   /// The same once nothing has come for the idle timeout; a pass that is over is written at once.
   void saveWhenIdle();
 
-  /// Returns once every frame that was heard of has its lines and matches and every task is done,
-  /// or nothing has come for so long that nothing will; false when `stopped` says so before. Tasks
-  /// that are left then are broken off and counted as skipped.
-  /// `first_match_due`: whether matches may come although none has.
-  bool drain(const std::function<bool()>& stopped, const std::function<bool()>& first_match_due);
+  /// Returns once every frame that was heard of has its lines and matches, or will get none, and
+  /// every task is done, or nothing has come for so long that nothing will; false when `stopped`
+  /// says so before. Tasks that are left then are broken off and counted as skipped.
+  bool drain(const std::function<bool()>& stopped, const std::function<MayCome()>& may_come);
 
   /// Forgets all figures and sends empty sums.
   void reset();
@@ -139,7 +147,7 @@ class EvaluationSession {
   void handOut(EvaluationUpdate* update);
   void onResult(const EvaluationResult& result);
   bool waitForTheRest(const std::function<bool()>& stopped,
-                      const std::function<bool()>& first_match_due);
+                      const std::function<MayCome()>& may_come);
   void giveUpTasks();
   void keepParameters(int pass);
   void addProvenance(Report* report) const;

@@ -2,6 +2,7 @@
 // report on disk out.
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
+#include <std_msgs/Header.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -109,6 +110,8 @@ class EvaluatorNodelet : public SafeNodelet {
     ground_truth_ = handle.subscribe(topics::kGroundTruthLines, kResultQueue,
                                      &EvaluatorNodelet::onGroundTruth, this);
     matches_ = handle.subscribe(topics::kMatches, kResultQueue, &EvaluatorNodelet::onMatches, this);
+    lines_left_out_ = subscribeToLeftOut(topics::kLines, &StreamEvaluator::leaveOutLines);
+    matches_left_out_ = subscribeToLeftOut(topics::kMatches, &StreamEvaluator::leaveOutMatches);
     camera_info_ =
         handle.subscribe(topics::kCameraInfo, kResultQueue, &EvaluatorNodelet::onCameraInfo, this);
     const MetricFamilies& families = options_.pass.families;
@@ -128,6 +131,20 @@ class EvaluatorNodelet : public SafeNodelet {
                                   },
                                   [this](const std::string& text) { warn(text); }});
     }
+  }
+
+  /// What a method of ours tells of the frames for which `topic` will bring nothing.
+  ros::Subscriber subscribeToLeftOut(const std::string& topic,
+                                     void (StreamEvaluator::*leave_out)(Stamp)) {
+    const boost::function<void(const std_msgs::HeaderConstPtr&)> on_header =
+        [this, leave_out](const std_msgs::HeaderConstPtr& header) {
+          waitForSubscriptions();
+          session_->leaveOut(
+              [&](StreamEvaluator* evaluator) { (evaluator->*leave_out)(fromRos(header->stamp)); });
+        };
+    ros::NodeHandle& handle = getNodeHandle();
+    return handle.subscribe<std_msgs::Header>(handle.resolveName(topic) + topics::kLeftOutSuffix,
+                                              kResultQueue, on_header);
   }
 
   void warn(const std::string& text) {
@@ -166,6 +183,7 @@ class EvaluatorNodelet : public SafeNodelet {
   }
 
   void onLines(const evolin_ros::LineArrayConstPtr& message) {
+    lines_heard_ = true;
     take(topics::kLines, lines_, message->header,
          [&](StreamEvaluator* evaluator) { return evaluator->addLines(fromMessage(*message)); });
     wantPose(message->header);
@@ -298,14 +316,19 @@ class EvaluatorNodelet : public SafeNodelet {
   }
 
   bool onFinish(Trigger::Request& /*request*/, Trigger::Response& response) {
-    const bool complete = session_->drain([this] { return !ros::ok() || stopping_; },
-                                          [this] {
-                                            return !options_.pass.matches_from_ids &&
-                                                   !matches_heard_ &&
-                                                   matches_.getNumPublishers() > 0;
-                                          });
+    const bool complete =
+        session_->drain([this] { return !ros::ok() || stopping_; }, [this] { return mayCome(); });
     session_->publishSums(true);
     return answer(&response, [this, complete] { return session_->save(complete, true); });
+  }
+
+  /// Whoever has sent and is gone sends nothing any more.
+  MayCome mayCome() const {
+    MayCome may_come;
+    may_come.lines = !lines_heard_ || lines_.getNumPublishers() > 0;
+    may_come.matches = !options_.pass.matches_from_ids && matches_.getNumPublishers() > 0;
+    may_come.first_matches = may_come.matches && !matches_heard_;
+    return may_come;
   }
 
   bool onReset(Trigger::Request& /*request*/, Trigger::Response& response) {
@@ -337,6 +360,7 @@ class EvaluatorNodelet : public SafeNodelet {
   ros::AsyncSpinner service_spinner_{1, &service_queue_};
   std::atomic<bool> stopping_{false};
 
+  std::atomic<bool> lines_heard_{false};
   std::atomic<bool> matches_heard_{false};
 
   EvaluatorOptions options_;
@@ -351,6 +375,8 @@ class EvaluatorNodelet : public SafeNodelet {
   ros::Subscriber lines_;
   ros::Subscriber ground_truth_;
   ros::Subscriber matches_;
+  ros::Subscriber lines_left_out_;
+  ros::Subscriber matches_left_out_;
   ros::Subscriber camera_info_;
   ros::WallTimer save_timer_;
   ros::WallTimer idle_timer_;

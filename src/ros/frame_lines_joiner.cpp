@@ -51,6 +51,7 @@ FrameLinesJoiner::Result FrameLinesJoiner::addLines(const evolin_ros::LineArrayC
     result.problem = "lines at " + formatStamp(fromRos(oldest)) +
                      " have no image of exactly this stamp (" + nearestOffset(oldest, images_) +
                      "); matches need both; raise ~queue_size if images come late";
+    result.left_out.push_back(lines_.front().message->header);
     lines_.pop_front();
   }
   return result;
@@ -70,6 +71,9 @@ void FrameLinesJoiner::pair(Result* result) {
       result->problem = "lines at " + formatStamp(fromRos(lines_.front().message->header.stamp)) +
                         " and up to the next complete frame are passed over: their image never "
                         "came (raise ~queue_size if images are lost)";
+      for (auto passed = lines_.begin(); passed != lines; ++passed) {
+        result->left_out.push_back(passed->message->header);
+      }
     }
     result->complete.push_back({*image, lines->message, lines->pass != paired_pass_});
     paired_pass_ = lines->pass;

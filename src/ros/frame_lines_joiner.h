@@ -3,6 +3,7 @@
 
 #include <evolin_ros/LineArray.h>
 #include <sensor_msgs/Image.h>
+#include <std_msgs/Header.h>
 
 #include <cstddef>
 #include <deque>
@@ -24,8 +25,9 @@ class FrameLinesJoiner {
     bool begins_pass = false;
   };
   struct Result {
-    std::vector<Pair> complete;  ///< in the order of the lines
-    std::string problem;         ///< for the log: what had to be left out and why
+    std::vector<Pair> complete;              ///< in the order of the lines
+    std::string problem;                     ///< for the log: what had to be left out and why
+    std::vector<std_msgs::Header> left_out;  ///< of the lines that will get no image
   };
 
   /// Keeps at most `capacity` images and as many line arrays that wait for their image.

@@ -3,6 +3,7 @@
 #include <cv_bridge/cv_bridge.h>
 #include <image_transport/image_transport.h>
 #include <sensor_msgs/image_encodings.h>
+#include <std_msgs/Header.h>
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -10,6 +11,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "associator_options.h"
 #include "camera_source.h"
@@ -88,6 +90,8 @@ class LineAssociatorNodelet : public SafeNodelet {
         image_transport_->advertise(topics::kMatchesImage, 1, on_listener, on_listener);
     matches_ = handle.advertise<evolin_ros::LineMatchArray>(topics::kMatches, kResultQueue,
                                                             on_listener, on_listener);
+    left_out_ = handle.advertise<std_msgs::Header>(
+        handle.resolveName(topics::kMatches) + topics::kLeftOutSuffix, kResultQueue);
     // Of listeners that the topic has already, for the sake of another nodelet in this manager,
     // older releases of roscpp do not tell.
     if (!first_.lazy || hasListener()) {
@@ -191,7 +195,10 @@ class LineAssociatorNodelet : public SafeNodelet {
 
   void take(const FrameLinesJoiner::Result& result) {
     if (!result.problem.empty()) {
-      health_->dropped("without their image");
+      health_->dropped("without their image", result.left_out.size());
+      for (const std_msgs::Header& header : result.left_out) {
+        left_out_.publish(header);
+      }
       if (warnings_.due()) {
         NODELET_WARN("%s", result.problem.c_str());
       }
@@ -202,7 +209,11 @@ class LineAssociatorNodelet : public SafeNodelet {
         NODELET_INFO("time jumped back: frames of the last pass are forgotten");
         ++pass_;
       }
-      health_->dropped("dropped to keep up", queue_->push({pair, now, pass_}));
+      const std::vector<Item> dropped = queue_->push({pair, now, pass_});
+      health_->dropped("dropped to keep up", dropped.size());
+      for (const Item& item : dropped) {
+        left_out_.publish(item.pair.lines->header);
+      }
     }
   }
 
@@ -217,6 +228,7 @@ class LineAssociatorNodelet : public SafeNodelet {
       health_->finished((ros::WallTime::now() - item.arrival).toSec(), processing);
     } catch (const std::exception& error) {
       health_->dropped("unusable");
+      left_out_.publish(item.pair.lines->header);
       if (errors_.due()) {
         NODELET_ERROR("no matches for the frame at %.6f: %s", item.pair.lines->header.stamp.toSec(),
                       error.what());
@@ -250,9 +262,11 @@ class LineAssociatorNodelet : public SafeNodelet {
     if (window_.size() > step + 1) {
       window_.pop_front();
     }
-    return window_.size() == step + 1
-               ? match(*settings, *window_.front(), *current, pair.lines->header)
-               : 0;
+    if (window_.size() <= step) {
+      left_out_.publish(pair.lines->header);
+      return 0;
+    }
+    return match(*settings, *window_.front(), *current, pair.lines->header);
   }
 
   /// One associator does not understand what another has noted of a frame.
@@ -311,6 +325,7 @@ class LineAssociatorNodelet : public SafeNodelet {
   image_transport::Publisher matches_image_;
   ros::Subscriber lines_;
   ros::Publisher matches_;
+  ros::Publisher left_out_;
   ros::ServiceServer reload_;
 };
 

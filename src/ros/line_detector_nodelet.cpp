@@ -4,12 +4,14 @@
 #include <evolin_ros/LineDetectorConfig.h>
 #include <image_transport/image_transport.h>
 #include <sensor_msgs/image_encodings.h>
+#include <std_msgs/Header.h>
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "camera_source.h"
 #include "conversions.h"
@@ -86,6 +88,8 @@ class LineDetectorNodelet : public SafeNodelet {
     lines_image_ = image_transport_->advertise(topics::kLinesImage, 1, on_listener, on_listener);
     lines_ = handle.advertise<evolin_ros::LineArray>(topics::kLines, kResultQueue, on_listener,
                                                      on_listener);
+    left_out_ = handle.advertise<std_msgs::Header>(
+        handle.resolveName(topics::kLines) + topics::kLeftOutSuffix, kResultQueue);
     // Of listeners that the topic has already, for the sake of another nodelet in this manager,
     // older releases of roscpp do not tell.
     if (!options.lazy || hasListener()) {
@@ -238,18 +242,21 @@ class LineDetectorNodelet : public SafeNodelet {
     watchdog_->heard(image_topic_);
     health_->heard(image_topic_);
     const std::uint32_t lost = gaps_.lostBefore(*message);
-    const std::size_t dropped = queue_->push({message, ros::WallTime::now()});
+    const std::vector<Item> dropped = queue_->push({message, ros::WallTime::now()});
+    for (const Item& item : dropped) {
+      left_out_.publish(item.image->header);
+    }
     health_->dropped("lost before they came", lost);
-    health_->dropped(first_.realtime ? "dropped to keep up" : "over ~queue_size", dropped);
+    health_->dropped(first_.realtime ? "dropped to keep up" : "over ~queue_size", dropped.size());
     if (lost > 0 && warnings_.due()) {
       NODELET_WARN("%u images were lost before %.6f on their way here", lost,
                    message->header.stamp.toSec());
     }
-    if (dropped > 0 && !first_.realtime && warnings_.due()) {
+    if (!dropped.empty() && !first_.realtime && warnings_.due()) {
       NODELET_WARN(
           "%zu images were dropped before %.6f: ~queue_size is %d, the detector is slower than the "
           "camera",
-          dropped, message->header.stamp.toSec(), first_.queue_size);
+          dropped.size(), message->header.stamp.toSec(), first_.queue_size);
     }
   }
 
@@ -260,6 +267,7 @@ class LineDetectorNodelet : public SafeNodelet {
       health_->finished((ros::WallTime::now() - item.arrival).toSec(), processing);
     } catch (const std::exception& error) {
       health_->dropped("unusable");
+      left_out_.publish(item.image->header);
       if (errors_.due()) {
         NODELET_ERROR("%s: no lines for the image at %.6f: %s", image_topic_.c_str(),
                       item.image->header.stamp.toSec(), error.what());
@@ -310,6 +318,7 @@ class LineDetectorNodelet : public SafeNodelet {
   image_transport::Subscriber image_;
   image_transport::Publisher lines_image_;
   ros::Publisher lines_;
+  ros::Publisher left_out_;
   ros::ServiceServer reload_;
   std::unique_ptr<dynamic_reconfigure::Server<Config>> reconfigure_;
 };

@@ -35,6 +35,8 @@ constexpr char kLines3d[] = "lines_3d";
 constexpr char kTf[] = "/tf";
 constexpr char kTfStatic[] = "/tf_static";
 constexpr char kCoverage[] = "coverage";
+/// Behind the resolved name of lines or matches: headers of the frames for which none will come.
+constexpr char kLeftOutSuffix[] = "_left_out";
 }  // namespace topics
 
 namespace services {

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace evolin::ros_shell {
 
@@ -24,21 +25,21 @@ class WorkQueue {
   WorkQueue(const WorkQueue&) = delete;
   WorkQueue& operator=(const WorkQueue&) = delete;
 
-  /// Returns how many older items had to give way.
-  std::size_t push(Item item) {
-    std::size_t dropped = 0;
+  /// Returns the older items that had to give way, oldest first.
+  std::vector<Item> push(Item item) {
+    std::vector<Item> dropped;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (stopping_) {
-        return 0;
+        return dropped;
       }
       if (!thread_.joinable()) {
         thread_ = std::thread([this] { run(); });
       }
       items_.push_back(std::move(item));
       while (capacity_ > 0 && items_.size() > capacity_) {
+        dropped.push_back(std::move(items_.front()));
         items_.pop_front();
-        ++dropped;
       }
     }
     changed_.notify_one();

@@ -37,6 +37,14 @@ std::vector<std::uint32_t> completeIn(const Result& result) {
 
 using Stamps = std::vector<std::uint32_t>;
 
+Stamps leftOutIn(const Result& result) {
+  Stamps stamps;
+  for (const std_msgs::Header& header : result.left_out) {
+    stamps.push_back(header.stamp.sec);
+  }
+  return stamps;
+}
+
 TEST(FrameLinesJoiner, PairsWhicheverComesFirst) {
   FrameLinesJoiner joiner(10);
   EXPECT_EQ(completeIn(joiner.addImage(image(1))), Stamps());
@@ -82,10 +90,12 @@ TEST(FrameLinesJoiner, ARepeatedLineArrayCountsOnce) {
 
 TEST(FrameLinesJoiner, LinesWithoutAnImageHoldNobodyUp) {
   FrameLinesJoiner joiner(10);
-  joiner.addLines(lines(1));
+  EXPECT_EQ(leftOutIn(joiner.addLines(lines(1))), Stamps());
   joiner.addLines(lines(2));
-  const Result result = joiner.addImage(image(2));
-  EXPECT_EQ(completeIn(result), Stamps({2}));
+  joiner.addLines(lines(3));
+  const Result result = joiner.addImage(image(3));
+  EXPECT_EQ(completeIn(result), Stamps({3}));
+  EXPECT_EQ(leftOutIn(result), Stamps({1, 2}));
   EXPECT_NE(result.problem.find("lines at 1.000000005"), std::string::npos) << result.problem;
   EXPECT_NE(result.problem.find("~queue_size"), std::string::npos);
   EXPECT_TRUE(joiner.addImage(image(1)).complete.empty()) << "an earlier frame after a later one";
@@ -107,6 +117,7 @@ TEST(FrameLinesJoiner, SaysHowFarTheNearestImageIs) {
   joiner.addLines(lines(11));
   const Result result = joiner.addLines(lines(12));
   EXPECT_NE(result.problem.find("lines at 10.000000005"), std::string::npos) << result.problem;
+  EXPECT_EQ(leftOutIn(result), Stamps({10}));
   EXPECT_NE(result.problem.find("nearest image is 4.0"), std::string::npos) << result.problem;
 
   FrameLinesJoiner without_images(1);

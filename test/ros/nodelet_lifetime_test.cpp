@@ -95,7 +95,8 @@ TEST_F(NodeletLifetime, APlugInGetsThePixelsOfTheMessageThemselves) {
 
 TEST_F(NodeletLifetime, AHundredLoadsAndUnloadsInAStream) {
   Process process({host(), "cycle", "100", folder_.path().string()});
-  EXPECT_EQ(process.wait(400), std::optional<int>(0)) << "a sanitizer's findings are above";
+  // ThreadSanitizer takes minutes, more where others use the machine.
+  EXPECT_EQ(process.wait(1500), std::optional<int>(0)) << "a sanitizer's findings are above";
 }
 
 TEST_F(NodeletLifetime, AnInterruptAtAnyMomentLeavesWhatASavePeriodAgoWasThere) {

@@ -28,6 +28,23 @@ run_tests = load("run_tests.py")
 print_report = load("print_report")
 
 
+class Targets(unittest.TestCase):
+    def targets(self, *names):
+        return run_tests.targets_of([run_tests.Program({"name": name, "command": ["true"]})
+                                     for name in names])
+
+    def test_a_unit_test_needs_itself_alone(self):
+        self.assertEqual(self.targets("_ctest_evolin_ros_gtest_a_test", "_ctest_evolin_ros_gtest_b_test"),
+                         ["a_test", "b_test"])
+
+    def test_a_rostest_needs_everything(self):
+        for name in ("_ctest_evolin_ros_rostest_test_ros_online_bag.test", "scripts_test"):
+            self.assertEqual(self.targets("_ctest_evolin_ros_gtest_a_test", name), ["all", "tests"])
+
+    def test_nothing_needs_nothing(self):
+        self.assertEqual(self.targets(), [])
+
+
 class ReadCases(unittest.TestCase):
     def read(self, text):
         with tempfile.TemporaryDirectory() as folder:

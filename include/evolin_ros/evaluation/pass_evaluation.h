@@ -55,6 +55,13 @@ struct EvaluationUpdate {
   void append(EvaluationUpdate other);
 };
 
+/// What those that send a stream's parts may still send.
+struct MayCome {
+  bool lines = true;
+  bool matches = true;         ///< where some have come already
+  bool first_matches = false;  ///< where none have
+};
+
 /// Figures of a pass so far without its records: a copy that may be looked at where nobody waits.
 struct PassSums {
   SequenceEvaluator evaluator;
@@ -122,10 +129,15 @@ class PassEvaluation {
   /// Frames by state, as report(false) has them, without building a report.
   CoverageCounts coverage() const;
 
+  /// The detector says that no lines of this frame will come, or the associator no matches of this
+  /// second frame: they are not waited for. Counts nothing; before the frame is heard of, too.
+  void leaveOutLines(Stamp stamp) { left_out_lines_.insert(stamp); }
+  void leaveOutMatches(Stamp stamp) { left_out_matches_.insert(stamp); }
+
   /// Whether an image or ground truth is there whose lines may still come (a front-end that sends
   /// in order has left out what it has passed over), matches are still due for the newest frames,
   /// or tasks are under way.
-  bool waiting() const;
+  bool waiting(const MayCome& may_come = {}) const;
 
   const MotionEvaluation& motion() const { return motion_; }
 
@@ -189,6 +201,8 @@ class PassEvaluation {
   static FrameState stateByWhatIsMissing(bool has_lines);
   void fillDetectedAssociation(Report* report) const;
   void fillHeatmap(Report* report) const;
+  bool waitsForLines(Stamp stamp, const Entry& entry) const;
+  bool isMatched(const Entry& entry) const;
   void fillMotion(bool complete, Report* report) const;
   void fillRepeatability(const MotionEvaluation& motion, Report* report) const;
   void note(const std::string& text, EvaluationUpdate* update);
@@ -239,6 +253,8 @@ class PassEvaluation {
   bool lines_in_order_ = true;
   std::size_t ground_truth_seen_ = 0;
   std::optional<Stamp> newest_matches_;
+  std::set<Stamp> left_out_lines_;
+  std::set<Stamp> left_out_matches_;
   std::string lines_source_;
   std::string ground_truth_source_;
   std::string matches_source_;

@@ -80,7 +80,10 @@ class StreamEvaluator {
   void addNote(const std::string& text) { passes_.at(newest_).addNote(text); }
 
   bool hasPendingTasks() const;
-  bool waiting() const;
+  /// As PassEvaluation's, of the newest pass.
+  void leaveOutLines(Stamp stamp) { passes_.at(newest_).leaveOutLines(stamp); }
+  void leaveOutMatches(Stamp stamp) { passes_.at(newest_).leaveOutMatches(stamp); }
+  bool waiting(const MayCome& may_come = {}) const;
   int pass() const { return newest_; }
   const PassEvaluation& current() const { return passes_.at(newest_); }
 
