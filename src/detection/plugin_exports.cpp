@@ -3,6 +3,7 @@
 
 #include "evolin_ros/detection/edlines.h"
 #include "evolin_ros/detection/elsed.h"
+#include "evolin_ros/detection/fld.h"
 #include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/lsd.h"
@@ -14,6 +15,7 @@
 
 PLUGINLIB_EXPORT_CLASS(evolin::EdLines, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Elsed, evolin::LineDetector)
+PLUGINLIB_EXPORT_CLASS(evolin::Fld, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Fsg, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Lsd, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Lswms, evolin::LineDetector)

@@ -9,6 +9,7 @@
 
 #include "evolin_ros/detection/edlines.h"
 #include "evolin_ros/detection/elsed.h"
+#include "evolin_ros/detection/fld.h"
 #include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/lsd.h"
@@ -77,6 +78,12 @@ auto values(const LswmsParameters& p) {
       selectionValues(p.selection));
 }
 
+auto values(const FldParameters& p) {
+  return std::tuple_cat(std::make_tuple(p.length_threshold, p.distance_threshold,
+                                        p.canny_threshold1, p.canny_threshold2, p.canny_aperture),
+                        selectionValues(p.selection));
+}
+
 auto values(const FsgParameters& p) {
   return std::tuple_cat(
       std::make_tuple(p.endpoint_error, p.max_overlap, p.max_gap, p.orientation_bins, p.length_bins,
@@ -126,6 +133,8 @@ TEST(ShippedDetectorConfig, EdLinesHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvEdLines>("opencv_edlines");
 }
 
+TEST(ShippedDetectorConfig, OwnFldHoldsAllDefaults) { expectHoldsAllDefaults<Fld>("fld"); }
+
 TEST(ShippedDetectorConfig, FldHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvFld>("opencv_fld");
 }
@@ -135,9 +144,10 @@ TEST(ShippedDetectorConfig, ElsedHoldsAllDefaults) { expectHoldsAllDefaults<Else
 TEST(ShippedDetectorConfig, HoughPHoldsAllDefaults) { expectHoldsAllDefaults<HoughP>("hough_p"); }
 
 TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
-  const std::set<std::string> tested = {"edlines.yaml",        "elsed.yaml",      "fsg.yaml",
-                                        "lswms.yaml",          "lsd.yaml",        "opencv_lsd.yaml",
-                                        "opencv_edlines.yaml", "opencv_fld.yaml", "hough_p.yaml"};
+  const std::set<std::string> tested = {"edlines.yaml",    "elsed.yaml",          "fld.yaml",
+                                        "fsg.yaml",        "lswms.yaml",          "lsd.yaml",
+                                        "opencv_lsd.yaml", "opencv_edlines.yaml", "opencv_fld.yaml",
+                                        "hough_p.yaml"};
   for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
     EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
   }
