@@ -1,45 +1,58 @@
-// Edge pixels of OpenCV's Canny filter in a map with a margin, for methods that follow them.
+// Edge pixels of the Canny filter in a map with a margin, for methods that follow them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "smoothed_gradient.h"
 
 namespace evolin {
 
-/// Keeps the map of one image at a time.
+/// Keeps the map of one image at a time, and its memory.
 class CannyEdges {
  public:
-  /// `gray`: CV_8UC1, rows may have gaps; nothing around a window is looked at. Images of one row
-  /// or column have no edges.
-  void find(const cv::Mat& gray, double threshold1, double threshold2, int aperture) {
-    prepare(gray.size());
-    if (gray.cols < 2 || gray.rows < 2) {
-      return;
-    }
-    const cv::Mat* image = &gray;
-    if (gray.isSubmatrix()) {
-      gray.copyTo(copy_);
-      image = &copy_;
-    }
-    cv::Mat inner = map_(cv::Rect(1, 1, gray.cols, gray.rows));
-    cv::Canny(*image, inner, threshold1, threshold2, aperture);
+  /// The pixels that cv::Canny finds on the smoothed image with an aperture of 3 and the L1 norm:
+  /// more than `low` (at least 0), and connected to such of more than `high` (in either order),
+  /// rounded down. The maps have derivatives, and strength from leastStrength() on at the latest.
+  void find(const GradientMaps& maps, double low, double high);
+
+  /// As cv::Canny finds them, with an aperture of 3, 5 or 7 (and allocates). `gray`: CV_8UC1, rows
+  /// may have gaps; nothing around a window is looked at.
+  void findByOpenCv(const cv::Mat& gray, double low, double high, int aperture);
+
+  /// The least |dx| + |dy| of an edge pixel.
+  static int leastStrength(double low, double high) {
+    return static_cast<int>(std::floor(std::min({low, high, kMostStrength}))) + 1;
   }
 
-  /// 0 or 255; row `y` is valid from -1 to the number of rows, and so are its columns.
-  std::uint8_t* row(int y) { return map_.ptr<std::uint8_t>(y + 1) + 1; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// 0 or kEdge; valid for rows from -1 to height() and columns from -1 to width().
+  std::uint8_t* row(int y) { return map_.data() + (y + 1) * stride() + 1; }
 
   /// From one row to the next.
-  std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(map_.step[0]); }
+  std::ptrdiff_t stride() const { return width_ + 2; }
+
+  static constexpr std::uint8_t kEdge = 255;
 
  private:
-  void prepare(cv::Size size) {
-    map_.create(size.height + 2, size.width + 2, CV_8UC1);
-    map_.setTo(0);
-  }
+  // Greater sums do not occur.
+  static constexpr double kMostStrength = 4 * 2 * 255;
 
-  cv::Mat map_;
+  void prepare(int width, int height);
+  void suppress(const GradientMaps& maps, int y, int low, int high);
+  void spread();
+
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<std::uint8_t> map_;
+  std::vector<std::uint8_t*> weak_;    // may be edges
+  std::vector<std::uint8_t*> strong_;  // edges whose neighbours are to be looked at
   cv::Mat copy_;
 };
 

@@ -83,8 +83,7 @@ class Sums {
 const LineSegments& LineFinder::find(const cv::Mat& gray) {
   size_ = gray.size();
   lines_.clear();
-  edges_.find(gray, parameters_.canny_threshold1, parameters_.canny_threshold2,
-              parameters_.canny_aperture);
+  findEdges(gray);
   for (int y = 0; y < std::min(kFirstCorner, size_.height); ++y) {
     std::fill_n(edges_.row(y), std::min(kFirstCorner, size_.width), std::uint8_t{0});
   }
@@ -101,6 +100,17 @@ const LineSegments& LineFinder::find(const cv::Mat& gray) {
     });
   }
   return lines_;
+}
+
+void LineFinder::findEdges(const cv::Mat& gray) {
+  const double low = parameters_.canny_threshold1;
+  const double high = parameters_.canny_threshold2;
+  if (parameters_.canny_aperture == 3) {
+    gradient_.compute(gray, CannyEdges::leastStrength(low, high), &maps_);
+    edges_.find(maps_, low, high);
+  } else {
+    edges_.findByOpenCv(gray, low, high, parameters_.canny_aperture);
+  }
 }
 
 /// Moves the edge's pixels from (x, y) on, one way, from the map to chain_.

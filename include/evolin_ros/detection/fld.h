@@ -19,7 +19,7 @@ struct FldParameters {
   DetectorSelection selection;
 };
 
-/// Plug-in `fld`. No score. Memory is kept from frame to frame, but for OpenCV's Canny filter.
+/// Plug-in `fld`. No score. Memory is kept from frame to frame with the default aperture.
 class Fld : public LineDetector {
  public:
   Fld();
