@@ -2,7 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmark/frames.h"
+#include "evolin_ros/detection/edlines.h"
 #include "evolin_ros/detection/elsed.h"
+#include "evolin_ros/detection/fld.h"
 #include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/lsd.h"
@@ -48,6 +50,8 @@ void detectAsNew(benchmark::State& state) {
 
 BENCHMARK_TEMPLATE(detect, Elsed)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detectAsNew, Elsed)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, EdLines)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, Fld)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, Fsg)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, Lsd)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, Lswms)->Unit(benchmark::kMillisecond);

@@ -1,4 +1,4 @@
-// Row-streaming Gaussian and Sobel filters written as plain loops that vectorise.
+// Row-streaming Gaussian and derivative filters written as plain loops that vectorise.
 #include "smoothed_gradient.h"
 
 #include <algorithm>
@@ -106,8 +106,8 @@ std::vector<int> gaussianWeights(int kernel, double sigma) {
   return weights;
 }
 
-SmoothedGradient::SmoothedGradient(int kernel, double sigma)
-    : weights_(gaussianWeights(kernel, sigma)) {}
+SmoothedGradient::SmoothedGradient(int kernel, double sigma, DerivativeFilter filter)
+    : weights_(gaussianWeights(kernel, sigma)), filter_(filter) {}
 
 void SmoothedGradient::smoothAlongRow(const std::uint8_t* row, std::uint16_t* smoothed) {
   const int radius = static_cast<int>(weights_.size()) - 1;
@@ -137,6 +137,17 @@ void SmoothedGradient::smoothAcrossRows(int y, int height, std::uint8_t* smoothe
 }
 
 void SmoothedGradient::differentiate(int y, int threshold, GradientMaps* maps) {
+  if (filter_ == DerivativeFilter::kSobel) {
+    differentiateBy<DerivativeFilter::kSobel>(y, threshold, maps);
+  } else {
+    differentiateBy<DerivativeFilter::kPrewittStrength>(y, threshold, maps);
+  }
+}
+
+template <DerivativeFilter kFilter>
+void SmoothedGradient::differentiateBy(int y, int threshold, GradientMaps* maps) {
+  constexpr bool kSobel = kFilter == DerivativeFilter::kSobel;
+  constexpr int kMiddle = kSobel ? 2 : 1;
   const int stride = width_ + 2;
   const auto row = [&](int r) {
     return smoothed_.data() +
@@ -148,16 +159,19 @@ void SmoothedGradient::differentiate(int y, int threshold, GradientMaps* maps) {
   std::int16_t* sum = column_sum_.data();
   std::int16_t* slope = column_slope_.data();
   for (int x = 0; x < stride; ++x) {
-    sum[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
+    sum[x] = static_cast<std::int16_t>(above[x] + kMiddle * here[x] + below[x]);
     slope[x] = static_cast<std::int16_t>(below[x] - above[x]);
   }
-  std::int16_t* derivatives = maps->derivatives.data() + 2 * maps->at(0, y);
+  [[maybe_unused]] std::int16_t* derivatives =
+      kSobel ? maps->derivatives.data() + 2 * maps->at(0, y) : nullptr;
   std::uint16_t* strength = maps->strength.data() + maps->at(0, y);
   for (int x = 0; x < width_; ++x) {
     const auto dx = static_cast<std::int16_t>(sum[x + 2] - sum[x]);
-    const auto dy = static_cast<std::int16_t>(slope[x] + 2 * slope[x + 1] + slope[x + 2]);
-    derivatives[2 * x] = dx;
-    derivatives[2 * x + 1] = dy;
+    const auto dy = static_cast<std::int16_t>(slope[x] + kMiddle * slope[x + 1] + slope[x + 2]);
+    if constexpr (kSobel) {
+      derivatives[2 * x] = dx;
+      derivatives[2 * x + 1] = dy;
+    }
     const auto along = static_cast<std::int16_t>(std::abs(dx));
     const auto across = static_cast<std::int16_t>(std::abs(dy));
     const auto both = static_cast<std::int16_t>(along + across);
@@ -175,7 +189,7 @@ void SmoothedGradient::compute(const cv::Mat& gray, int threshold, GradientMaps*
   const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height);
   maps->width = width_;
   maps->height = height;
-  maps->derivatives.resize(2 * pixels);
+  maps->derivatives.resize(filter_ == DerivativeFilter::kSobel ? 2 * pixels : 0);
   maps->strength.resize(pixels);
   padded_.resize(static_cast<std::size_t>(width_ + 2 * radius));
   along_rows_.resize(static_cast<std::size_t>(kept) * static_cast<std::size_t>(width_));

@@ -21,15 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 using test::Outcome;
 
-/// The first of these that this build can run.
+/// opencv_lsd, or lsd where this build lacks it.
 std::string availableDetector() {
   PluginLoader loader;
-  for (const char* name : {"opencv_lsd", "opencv_fld"}) {
-    if (loader.loadDetector(name)->whyUnavailable().empty()) {
-      return name;
-    }
-  }
-  return "hough_p";
+  return loader.loadDetector("opencv_lsd")->whyUnavailable().empty() ? "opencv_lsd" : "lsd";
 }
 
 class RecordTest : public ::testing::Test {

@@ -7,7 +7,9 @@
 #include <string>
 #include <tuple>
 
+#include "evolin_ros/detection/edlines.h"
 #include "evolin_ros/detection/elsed.h"
+#include "evolin_ros/detection/fld.h"
 #include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/lsd.h"
@@ -46,6 +48,14 @@ auto selectionValues(const DetectorSelection& s) {
   return std::make_tuple(s.score_threshold, s.min_length, s.max_lines, s.mask);
 }
 
+auto values(const EdLinesParameters& p) {
+  return std::tuple_cat(
+      std::make_tuple(p.kernel, p.sigma, p.gradient_threshold, p.anchor_threshold, p.scan_interval,
+                      p.min_path_length, p.min_line_length, p.first_fit_error, p.pixel_distance,
+                      p.join_distance, p.join_error, p.validate),
+      selectionValues(p.selection));
+}
+
 auto values(const ElsedParameters& p) {
   return std::tuple_cat(
       std::make_tuple(p.kernel, p.sigma, p.gradient_threshold, p.anchor_threshold, p.scan_interval,
@@ -66,6 +76,12 @@ auto values(const LswmsParameters& p) {
   return std::tuple_cat(
       std::make_tuple(p.radius, p.angle_tolerance, p.max_error, p.score, p.compatible),
       selectionValues(p.selection));
+}
+
+auto values(const FldParameters& p) {
+  return std::tuple_cat(std::make_tuple(p.length_threshold, p.distance_threshold,
+                                        p.canny_threshold1, p.canny_threshold2, p.canny_aperture),
+                        selectionValues(p.selection));
 }
 
 auto values(const FsgParameters& p) {
@@ -109,9 +125,15 @@ TEST(ShippedDetectorConfig, LsdHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvLsd>("opencv_lsd");
 }
 
+TEST(ShippedDetectorConfig, OwnEdLinesHoldsAllDefaults) {
+  expectHoldsAllDefaults<EdLines>("edlines");
+}
+
 TEST(ShippedDetectorConfig, EdLinesHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvEdLines>("opencv_edlines");
 }
+
+TEST(ShippedDetectorConfig, OwnFldHoldsAllDefaults) { expectHoldsAllDefaults<Fld>("fld"); }
 
 TEST(ShippedDetectorConfig, FldHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvFld>("opencv_fld");
@@ -122,9 +144,10 @@ TEST(ShippedDetectorConfig, ElsedHoldsAllDefaults) { expectHoldsAllDefaults<Else
 TEST(ShippedDetectorConfig, HoughPHoldsAllDefaults) { expectHoldsAllDefaults<HoughP>("hough_p"); }
 
 TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
-  const std::set<std::string> tested = {"elsed.yaml",      "fsg.yaml",        "lswms.yaml",
-                                        "lsd.yaml",        "opencv_lsd.yaml", "opencv_edlines.yaml",
-                                        "opencv_fld.yaml", "hough_p.yaml"};
+  const std::set<std::string> tested = {"edlines.yaml",    "elsed.yaml",          "fld.yaml",
+                                        "fsg.yaml",        "lswms.yaml",          "lsd.yaml",
+                                        "opencv_lsd.yaml", "opencv_edlines.yaml", "opencv_fld.yaml",
+                                        "hough_p.yaml"};
   for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
     EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
   }

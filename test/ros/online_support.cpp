@@ -67,12 +67,7 @@ std::string whyUnavailable(const std::string& detector) {
 }
 
 std::string availableDetector() {
-  for (const char* detector : {"opencv_lsd", "opencv_fld"}) {
-    if (whyUnavailable(detector).empty()) {
-      return detector;
-    }
-  }
-  return "hough_p";
+  return whyUnavailable("opencv_lsd").empty() ? "opencv_lsd" : "lsd";
 }
 
 std::vector<LineSet> detectLines(const std::vector<SequenceFrame>& frames,

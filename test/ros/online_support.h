@@ -66,8 +66,7 @@ std::string testNamespace();
 /// Why this build cannot run a detector plug-in; "" when it can.
 std::string whyUnavailable(const std::string& detector);
 
-/// The first of opencv_lsd, opencv_fld and hough_p that this build can run: for tests of what holds
-/// with any detector.
+/// opencv_lsd, or our own lsd where this build lacks it: for tests of what holds with any detector.
 std::string availableDetector();
 
 struct Methods {

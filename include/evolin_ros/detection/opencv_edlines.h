@@ -25,7 +25,7 @@ struct OpenCvEdLinesParameters {
   double max_error_threshold = 1.3;             ///< when lines are joined, pixels, 0.001 to 100
 };
 
-/// Plug-in `opencv_edlines` (alias `edlines`). No score.
+/// Plug-in `opencv_edlines`. No score.
 class OpenCvEdLines : public LineDetector {
  public:
   void configure(const YAML::Node& parameters) override;

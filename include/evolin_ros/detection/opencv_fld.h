@@ -18,7 +18,7 @@ struct OpenCvFldParameters {
   bool merge = false;                       ///< joins neighbouring segments in a second pass
 };
 
-/// Plug-in `opencv_fld` (alias `fld`). No score.
+/// Plug-in `opencv_fld`. No score.
 class OpenCvFld : public LineDetector {
  public:
   void configure(const YAML::Node& parameters) override;

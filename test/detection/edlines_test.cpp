@@ -1,0 +1,85 @@
+// edlines against hand-made images, the golden figures and OpenCV's EdgeDrawing.
+#include "evolin_ros/detection/edlines.h"
+
+#include <gtest/gtest.h>
+
+#include "evolin_ros/detection/opencv_edlines.h"
+#include "test/detection/own_detectors.h"
+#include "test/support/expect_error.h"
+
+namespace evolin {
+namespace {
+
+class EdLinesTest : public ::testing::Test {
+ protected:
+  void SetUp() override { detector_.configure(YAML::Node()); }
+
+  EdLines detector_;
+};
+
+TEST_F(EdLinesTest, NamesWhatIsWrongWithAParameter) {
+  EdLines fresh;
+  test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{kernal: 3}")); },
+                                 {"edlines", "kernal", "kernel"});
+  test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{kernel: 4}")); },
+                                 {"edlines", "kernel", "odd", "4"});
+  test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{min_line_length: 2}")); },
+                                 {"min_line_length", "3", "2"});
+}
+
+TEST_F(EdLinesTest, FindsBothSidesOfABar) {
+  Frame frame;
+  frame.image = cv::Mat(100, 120, CV_8UC1, cv::Scalar(30));
+  frame.image.colRange(50, 70).setTo(220);
+  const LineSegments lines = detector_.detect(frame);
+  ASSERT_EQ(lines.size(), 2U);
+  for (const LineSegment& line : lines) {
+    EXPECT_NEAR(line.x1, line.x2, 1e-9);
+    EXPECT_GT(line.length(), 90);
+    EXPECT_NEAR(std::abs(line.x1 - 59.5), 10, 0.51);
+  }
+}
+
+// Noise has edges, but hardly a line that its gradients agree with.
+TEST_F(EdLinesTest, ValidationDropsWhatNoiseHas) {
+  Frame frame;
+  frame.image = test::noise(240, 320, CV_8UC1);
+  EdLines without;
+  without.configure(YAML::Load("{validate: false}"));
+  const std::size_t all = without.detect(frame).size();
+  EXPECT_GT(all, 100U);
+  EXPECT_LT(detector_.detect(frame).size(), all / 20);
+}
+
+TEST_F(EdLinesTest, ExtremeParametersWork) {
+  for (const char* parameters :
+       {"{kernel: 1}", "{kernel: 15, sigma: 5}", "{gradient_threshold: 1, validate: false}",
+        "{gradient_threshold: 1530}", "{anchor_threshold: 20}", "{scan_interval: 64}",
+        "{min_path_length: 2, min_line_length: 3, validate: false}",
+        "{first_fit_error: 10, pixel_distance: 10, validate: false}",
+        "{first_fit_error: 0.01, pixel_distance: 0.01}",
+        "{join_distance: 1000, join_error: 100, validate: false}"}) {
+    SCOPED_TRACE(parameters);
+    EdLines detector;
+    detector.configure(YAML::Load(parameters));
+    test::expectSurvivesAwkwardImages(&detector);
+    for (const auto& [name, image] : test::adversarialImages()) {
+      Frame frame;
+      frame.image = image;
+      const LineSegments lines = detector.detect(frame);
+      test::expectSound(lines, detector, name);
+      test::expectLinesInImage(lines, image.size(), name);
+    }
+  }
+}
+
+TEST_F(EdLinesTest, EqualsTheGoldenLines) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  const test::GoldenAgreement agreement = test::compareWithGolden(&detector_, "edlines", -1);
+  EXPECT_GE(agreement.nearShare(), 0.98);
+  EXPECT_NEAR(agreement.countRatio(), 1, 0.01);
+  RecordProperty("near_share", std::to_string(agreement.nearShare()));
+}
+
+}  // namespace
+}  // namespace evolin
