@@ -11,15 +11,12 @@ namespace evolin {
 
 namespace {
 
-/// Vectors of doubles, also where they lie in a column of them.
 struct TwoWide {
   using Vector __attribute__((vector_size(16))) = double;
-  using InColumn __attribute__((vector_size(16), aligned(8), may_alias)) = double;
   static double sum(const Vector& v) { return v[0] + v[1]; }
 };
 struct FourWide {
   using Vector __attribute__((vector_size(32))) = double;
-  using InColumn __attribute__((vector_size(32), aligned(8), may_alias)) = double;
   static double sum(const Vector& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 };
 
@@ -57,30 +54,32 @@ class LineLoops {
 
  private:
   using Vector = typename Vectors::Vector;
-  using InColumn = typename Vectors::InColumn;
 
   using Bits = decltype(Vector{} < Vector{});
 
   static constexpr std::size_t kParts = kLineLanes * sizeof(double) / sizeof(Vector);
 
+  static constexpr std::size_t kWidth = sizeof(Vector) / sizeof(double);
+
+  /// Of the first or the second points.
   struct Columns {
     Columns(const LineTableView& table, int end)
-        : x(at(table, end == 0 ? kPoint1X : kPoint2X)),
-          y(at(table, end == 0 ? kPoint1Y : kPoint2Y)),
-          z(at(table, end == 0 ? kPoint1Z : kPoint2Z)),
-          normal_x(at(table, kNormalX)),
-          normal_y(at(table, kNormalY)),
-          normal_z(at(table, kNormalZ)),
-          residual(at(table, end == 0 ? kResidual1 : kResidual2)) {}
+        : x(table.columns[end == 0 ? kPoint1X : kPoint2X]),
+          y(table.columns[end == 0 ? kPoint1Y : kPoint2Y]),
+          z(table.columns[end == 0 ? kPoint1Z : kPoint2Z]),
+          normal_x(table.columns[kNormalX]),
+          normal_y(table.columns[kNormalY]),
+          normal_z(table.columns[kNormalZ]),
+          residual(table.columns[end == 0 ? kResidual1 : kResidual2]) {}
 
-    static InColumn* at(const LineTableView& table, LineColumn column) {
-      return reinterpret_cast<InColumn*>(table.columns[column]);
-    }
-
-    const InColumn *x, *y, *z;
-    const InColumn *normal_x, *normal_y, *normal_z;
-    InColumn* residual;
+    const double *x, *y, *z;
+    const double *normal_x, *normal_y, *normal_z;
+    double* residual;
   };
+
+  static void load(const double* values, Vector* vector) {
+    __builtin_memcpy(vector, values, sizeof(*vector));
+  }
 
   static Vector absolute(const Vector& value) {
     constexpr long long kAllButSign = 0x7fffffffffffffff;
@@ -128,20 +127,21 @@ class LineLoops {
     const Vector limit = Vector{} + delta;
     Vector cost = sums->cost;
     for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t row = (begin + i) * kParts + part;
-      const Vector px = columns.x[row];
-      const Vector py = columns.y[row];
-      const Vector pz = columns.z[row];
+      const std::size_t row = (begin + i) * kLineLanes + part * kWidth;
+      Vector px, py, pz, nx, ny, nz;
+      load(columns.x + row, &px);
+      load(columns.y + row, &py);
+      load(columns.z + row, &pz);
       const Vector x = (r[0] * px + r[1] * py) + (r[2] * pz + t[0]);
       const Vector y = (r[3] * px + r[4] * py) + (r[5] * pz + t[1]);
       const Vector z = (r[6] * px + r[7] * py) + (r[8] * pz + t[2]);
-      const Vector nx = columns.normal_x[row];
-      const Vector ny = columns.normal_y[row];
-      const Vector nz = columns.normal_z[row];
+      load(columns.normal_x + row, &nx);
+      load(columns.normal_y + row, &ny);
+      load(columns.normal_z + row, &nz);
       const Vector a = (nx * x + ny * y) + nz * z;
       const Vector inverse = 1.0 / z;
       const Vector e = a * inverse;
-      columns.residual[row] = e;
+      __builtin_memcpy(columns.residual + row, &e, sizeof(e));
       const Vector size_e = absolute(e);
       const Vector inner = size_e > limit ? limit : size_e;
       cost += inner * (2.0 * size_e - inner);
