@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "distance_estimates.h"
 #include "evolin_ros/base/error.h"
 
 namespace evolin {
@@ -33,21 +34,16 @@ struct NearestPair {
   double distance;
 };
 
-// Pairs of nearest rows among those chosen, by the first. `measure(i, &distances)` fills the
-// distances of first_rows[i] from all of `second_rows`.
-template <typename Measure>
+// Pairs of nearest rows among those chosen, by the first. `offer(i, &of_first, &of_second)` offers
+// distances of first_rows[i] from `second_rows`; every one that is a row's smallest is among them.
+template <typename Offer>
 std::vector<NearestPair> pairNearest(const std::vector<int>& first_rows,
                                      const std::vector<int>& second_rows, bool cross_check,
-                                     Measure measure) {
+                                     Offer offer) {
   std::vector<Nearest> of_first(first_rows.size());
   std::vector<Nearest> of_second(second_rows.size());
-  std::vector<double> distances(second_rows.size());
   for (std::size_t i = 0; i < first_rows.size(); ++i) {
-    measure(i, &distances);
-    for (std::size_t j = 0; j < distances.size(); ++j) {
-      of_first[i].offer(j, distances[j]);
-      of_second[j].offer(i, distances[j]);
-    }
+    offer(i, &of_first, &of_second);
   }
   std::vector<NearestPair> pairs;
   for (std::size_t i = 0; i < first_rows.size(); ++i) {
@@ -113,33 +109,89 @@ std::vector<int> finiteRows(const cv::Mat& descriptors) {
   return rows;
 }
 
-// The chosen rows as the columns of a matrix in double precision: distances to many descriptors
-// are then summed side by side.
-std::vector<double> transposed(const cv::Mat& descriptors, const std::vector<int>& rows) {
-  std::vector<double> columns(rows.size() * static_cast<std::size_t>(descriptors.cols));
-  for (std::size_t j = 0; j < rows.size(); ++j) {
-    const float* const row = descriptors.ptr<float>(rows[j]);
-    for (int d = 0; d < descriptors.cols; ++d) {
-      columns[static_cast<std::size_t>(d) * rows.size() + j] = row[d];
+// The chosen rows as the columns of a matrix, with columns of zeros up to the next full block.
+struct Columns {
+  Columns(const cv::Mat& descriptors, const std::vector<int>& rows)
+      : count((rows.size() + kEstimateColumns - 1) / kEstimateColumns * kEstimateColumns),
+        values(count * static_cast<std::size_t>(descriptors.cols)) {
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      const float* const row = descriptors.ptr<float>(rows[j]);
+      for (int d = 0; d < descriptors.cols; ++d) {
+        values[static_cast<std::size_t>(d) * count + j] = row[d];
+      }
     }
   }
-  return columns;
+
+  std::size_t count;
+  std::vector<float> values;
+};
+
+double squaredDistance(const float* first, const float* second, int size) {
+  double sum = 0;
+  for (int d = 0; d < size; ++d) {
+    const double difference = static_cast<double>(first[d]) - static_cast<double>(second[d]);
+    sum += difference * difference;
+  }
+  return sum;
 }
 
-void squaredDistances(const float* descriptor, int size, const std::vector<double>& columns,
-                      std::vector<double>* distances) {
-  const std::size_t count = distances->size();
-  double* const sums = distances->data();
-  std::fill(distances->begin(), distances->end(), 0.0);
-  for (int d = 0; d < size; ++d) {
-    const double value = descriptor[d];
-    const double* const column = columns.data() + static_cast<std::size_t>(d) * count;
-    for (std::size_t j = 0; j < count; ++j) {
-      const double difference = value - column[j];
-      sums[j] += difference * difference;
+// The largest estimate that one may have whose distance is not above that of the smallest estimate.
+// Single precision keeps 24 bits of every difference, square and sum.
+float farthestEstimate(float smallest, int size) {
+  const float relative = 4 * static_cast<float>(size + 4) * std::numeric_limits<float>::epsilon();
+  return smallest * (1 + relative) + 1e-30F;
+}
+
+// Exact distances are measured where estimates say that one of the two rows may be the nearest.
+class CandidatePairs {
+ public:
+  CandidatePairs(const cv::Mat& first, const std::vector<int>& first_rows, const cv::Mat& second,
+                 const std::vector<int>& second_rows)
+      : first_(first), first_rows_(first_rows), second_(second), second_rows_(second_rows) {
+    const Columns columns(second, second_rows);
+    stride_ = columns.count;
+    estimates_.resize(first_rows.size() * stride_);
+    first_limits_.resize(first_rows.size());
+    second_limits_.assign(stride_, std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i < first_rows.size(); ++i) {
+      float* const row = estimates_.data() + i * stride_;
+      estimateDistances(first.ptr<float>(first_rows[i]), columns.values.data(),
+                        static_cast<std::size_t>(first.cols), stride_, row);
+      float smallest = std::numeric_limits<float>::infinity();
+      for (std::size_t j = 0; j < second_rows.size(); ++j) {
+        smallest = std::min(smallest, row[j]);
+        second_limits_[j] = std::min(second_limits_[j], row[j]);
+      }
+      first_limits_[i] = farthestEstimate(smallest, first.cols);
+    }
+    for (float& limit : second_limits_) {
+      limit = farthestEstimate(limit, first.cols);
     }
   }
-}
+
+  // Offers row i of the first to the nearest of both sides.
+  void offer(std::size_t i, std::vector<Nearest>* of_first, std::vector<Nearest>* of_second) const {
+    const float* const row = estimates_.data() + i * stride_;
+    for (std::size_t j = 0; j < second_rows_.size(); ++j) {
+      if (row[j] <= std::max(first_limits_[i], second_limits_[j])) {
+        const double distance = squaredDistance(first_.ptr<float>(first_rows_[i]),
+                                                second_.ptr<float>(second_rows_[j]), first_.cols);
+        (*of_first)[i].offer(j, distance);
+        (*of_second)[j].offer(i, distance);
+      }
+    }
+  }
+
+ private:
+  const cv::Mat& first_;
+  const std::vector<int>& first_rows_;
+  const cv::Mat& second_;
+  const std::vector<int>& second_rows_;
+  std::size_t stride_ = 0;
+  std::vector<float> estimates_;
+  std::vector<float> first_limits_;
+  std::vector<float> second_limits_;
+};
 
 }  // namespace
 
@@ -152,12 +204,12 @@ LineMatches matchDescriptors(const cv::Mat& first, const cv::Mat& second, bool c
   requireEqualWidth(first, second);
   const std::vector<int> first_rows = finiteRows(first);
   const std::vector<int> second_rows = finiteRows(second);
-  const std::vector<double> columns = transposed(second, second_rows);
-  const auto measure = [&](std::size_t i, std::vector<double>* distances) {
-    squaredDistances(first.ptr<float>(first_rows[i]), first.cols, columns, distances);
+  const CandidatePairs candidates(first, first_rows, second, second_rows);
+  const auto offer = [&](std::size_t i, auto* of_first, auto* of_second) {
+    candidates.offer(i, of_first, of_second);
   };
   LineMatches matches;
-  for (const NearestPair& pair : pairNearest(first_rows, second_rows, cross_check, measure)) {
+  for (const NearestPair& pair : pairNearest(first_rows, second_rows, cross_check, offer)) {
     matches.push_back(makeMatch(pair, std::sqrt(pair.distance)));
   }
   return matches;
@@ -173,15 +225,17 @@ LineMatches matchBinaryDescriptors(const BinaryDescriptors& first, const BinaryD
   requireEqualWidth(first.bits, second.bits);
   const std::vector<int> first_rows = validRows(first);
   const std::vector<int> second_rows = validRows(second);
-  const auto measure = [&](std::size_t i, std::vector<double>* distances) {
+  const auto offer = [&](std::size_t i, auto* of_first, auto* of_second) {
     const std::uint8_t* const row = first.bits.ptr<std::uint8_t>(first_rows[i]);
     for (std::size_t j = 0; j < second_rows.size(); ++j) {
-      (*distances)[j] =
+      const double distance =
           cv::hal::normHamming(row, second.bits.ptr<std::uint8_t>(second_rows[j]), first.bits.cols);
+      (*of_first)[i].offer(j, distance);
+      (*of_second)[j].offer(i, distance);
     }
   };
   LineMatches matches;
-  for (const NearestPair& pair : pairNearest(first_rows, second_rows, cross_check, measure)) {
+  for (const NearestPair& pair : pairNearest(first_rows, second_rows, cross_check, offer)) {
     if (pair.distance <= max_distance) {
       matches.push_back(makeMatch(pair, pair.distance));
     }

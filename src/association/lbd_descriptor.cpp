@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "evolin_ros/base/error.h"
+#include "lbd_rows.h"
 
 namespace evolin {
 namespace {
@@ -19,16 +20,10 @@ constexpr int kBands = 9;
 constexpr int kBandRows = 7;
 constexpr int kRows = kBands * kBandRows;
 constexpr int kHalfRows = (kRows - 1) / 2;
-// The rows lie side by side in the vector registers; one unused lane makes the loops even.
-constexpr int kLanes = 64;
-constexpr int kSums = 4;  // along the line: positive, negative; across it: positive, negative
+constexpr int kSums = kLbdSums;
 constexpr float kClip = 0.4F;
 constexpr float kNormGuard = 1e-5F;
 
-template <typename T>
-using Lanes = std::array<T, kLanes>;
-
-// Both derivatives of a pixel in one 32-bit word: dx in the lower half, dy in the upper.
 struct Gradient {
   int width;
   int height;
@@ -40,19 +35,31 @@ Gradient computeGradient(const cv::Mat& gray) {
   // OpenCV's filters would see the pixels around a window into a larger image.
   const cv::Mat own = gray.isSubmatrix() ? gray.clone() : gray;
   cv::GaussianBlur(own, smooth, cv::Size(5, 5), 1.0, 1.0, cv::BORDER_REPLICATE);
-  cv::Mat dx;
-  cv::Mat dy;
-  cv::Sobel(smooth, dx, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
-  cv::Sobel(smooth, dy, CV_16S, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
 
+  // Sobel's two filters share their sums over a column, and both see the border pixel beyond it.
   Gradient gradient{gray.cols, gray.rows, {}};
   gradient.pixels.resize(static_cast<std::size_t>(gray.cols) * gray.rows);
-  std::int32_t* out = gradient.pixels.data();
+  std::vector<std::int16_t> sums(static_cast<std::size_t>(gray.cols) + 2);
+  std::vector<std::int16_t> differences(sums.size());
   for (int y = 0; y < gray.rows; ++y) {
-    const short* row_dx = dx.ptr<short>(y);
-    const short* row_dy = dy.ptr<short>(y);
+    const std::uint8_t* const above = smooth.ptr(std::max(y - 1, 0));
+    const std::uint8_t* const here = smooth.ptr(y);
+    const std::uint8_t* const below = smooth.ptr(std::min(y + 1, gray.rows - 1));
+    std::int16_t* const sum = sums.data() + 1;
+    std::int16_t* const difference = differences.data() + 1;
     for (int x = 0; x < gray.cols; ++x) {
-      *out++ = static_cast<std::int32_t>(row_dx[x] & 0xFFFF) + (row_dy[x] * 65536);
+      sum[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
+      difference[x] = static_cast<std::int16_t>(below[x] - above[x]);
+    }
+    for (std::int16_t* const row : {sum, difference}) {
+      row[-1] = row[0];
+      row[gray.cols] = row[gray.cols - 1];
+    }
+    std::int32_t* const out = gradient.pixels.data() + static_cast<std::size_t>(y) * gray.cols;
+    for (int x = 0; x < gray.cols; ++x) {
+      const int dx = sum[x + 1] - sum[x - 1];
+      const int dy = difference[x - 1] + 2 * difference[x] + difference[x + 1];
+      out[x] = (dx & 0xFFFF) + dy * 65536;
     }
   }
   return gradient;
@@ -78,16 +85,8 @@ struct Weights {
   }
 };
 
-struct Support {
-  int samples;  // a row
-  float start_x, start_y;
-  float along_x, along_y;
-};
-
-// The positions grow by repeated addition in single precision, as in the published code: samples
-// that fall between two pixels then go to the same side.
-Support makeSupport(float x1, float y1, float x2, float y2) {
-  Support support;
+LbdSupport makeSupport(float x1, float y1, float x2, float y2) {
+  LbdSupport support;
   support.samples = static_cast<int>(std::ceil(std::max(std::abs(x2 - x1), std::abs(y2 - y1))));
   const float direction = std::atan2(y2 - y1, x2 - x1);
   support.along_x = std::cos(direction);
@@ -103,12 +102,12 @@ Support makeSupport(float x1, float y1, float x2, float y2) {
 }
 
 // True when every sample lies on a pixel, with a margin for what the additions may drift.
-bool isInside(const Support& support, int width, int height) {
+bool isInside(const LbdSupport& support, int width, int height) {
   const float drift = std::numeric_limits<float>::epsilon() * static_cast<float>(support.samples) *
                       static_cast<float>(std::max(width, height));
   const float margin = 1.0F + drift;
   const float length = static_cast<float>(support.samples);
-  const float depth = static_cast<float>(kLanes);
+  const float depth = static_cast<float>(kLbdLanes);
   const float corner_x[] = {0, support.along_x * length};
   const float corner_y[] = {0, support.along_y * length};
   const float side_x[] = {0, -support.along_y * depth};
@@ -126,71 +125,8 @@ bool isInside(const Support& support, int width, int height) {
   return true;
 }
 
-struct RowSums {
-  alignas(64) std::array<Lanes<float>, kSums> values{};
-};
-
-// Sums the gradient's components along and across the line, row by row. With `clamped` samples
-// outside the image take the nearest pixel's value. Positions are never below zero after the
-// clamp, so cutting off the fraction of x + 0.5 rounds halves away from zero.
-template <bool clamped>
-void sumRows(const Gradient& gradient, const Support& support, RowSums* sums) {
-  alignas(64) Lanes<float> x;
-  alignas(64) Lanes<float> y;
-  alignas(64) Lanes<std::int32_t> at;
-  alignas(64) Lanes<std::int32_t> word;
-  const float along_x = support.along_x;
-  const float along_y = support.along_y;
-  float row_x = support.start_x;
-  float row_y = support.start_y;
-  for (int h = 0; h < kLanes; ++h) {
-    x[h] = row_x;
-    y[h] = row_y;
-    row_x -= along_y;
-    row_y += along_x;
-  }
-  const float last_x = static_cast<float>(gradient.width - 1);
-  const float last_y = static_cast<float>(gradient.height - 1);
-  const int width = gradient.width;
-  const std::int32_t* const pixels = gradient.pixels.data();
-  Lanes<float>& along_positive = sums->values[0];
-  Lanes<float>& along_negative = sums->values[1];
-  Lanes<float>& across_positive = sums->values[2];
-  Lanes<float>& across_negative = sums->values[3];
-
-  for (int k = 0; k < support.samples; ++k) {
-    for (int h = 0; h < kLanes; ++h) {
-      float px = x[h];
-      float py = y[h];
-      if (clamped) {
-        px = std::min(std::max(px, 0.0F), last_x);
-        py = std::min(std::max(py, 0.0F), last_y);
-      }
-      at[h] = static_cast<std::int32_t>(py + 0.5F) * width + static_cast<std::int32_t>(px + 0.5F);
-      x[h] += along_x;
-      y[h] += along_y;
-    }
-    for (int h = 0; h < kLanes; ++h) {
-      word[h] = pixels[at[h]];
-    }
-    for (int h = 0; h < kLanes; ++h) {
-      const std::int32_t high = word[h] >> 16;
-      const std::int32_t low =
-          static_cast<std::int32_t>(static_cast<std::uint32_t>(word[h]) << 16) >> 16;
-      const float dx = static_cast<float>(low);
-      const float dy = static_cast<float>(high);
-      const float along = dx * along_x + dy * along_y;
-      const float across = dy * along_x - dx * along_y;
-      along_positive[h] += std::max(along, 0.0F);
-      along_negative[h] += std::max(-along, 0.0F);
-      across_positive[h] += std::max(across, 0.0F);
-      across_negative[h] += std::max(-across, 0.0F);
-    }
-  }
-}
-
 // Means and standard deviations of the weighted rows in each band and its neighbours.
-void bandStatistics(const RowSums& sums, const Weights& weights, float* descriptor) {
+void bandStatistics(const LbdRowSums& sums, const Weights& weights, float* descriptor) {
   std::array<std::array<float, kSums>, kBands> total{};
   std::array<std::array<float, kSums>, kBands> squares{};
   for (int h = 0; h < kRows; ++h) {
@@ -269,16 +205,13 @@ cv::Mat describeLbd(const cv::Mat& gray, const LineSegments& lines) {
       std::fill_n(descriptor, kLbdSize, std::numeric_limits<float>::quiet_NaN());
       continue;
     }
-    const Support support = makeSupport(x1, y1, x2, y2);
+    const LbdSupport support = makeSupport(x1, y1, x2, y2);
     if (support.samples == 0) {
       continue;  // the row stays zero
     }
-    RowSums sums;
-    if (isInside(support, gradient.width, gradient.height)) {
-      sumRows<false>(gradient, support, &sums);
-    } else {
-      sumRows<true>(gradient, support, &sums);
-    }
+    LbdRowSums sums;
+    sumLbdRows({gradient.pixels.data(), gradient.width, gradient.height}, support,
+               !isInside(support, gradient.width, gradient.height), &sums);
     bandStatistics(sums, weights, descriptor);
     normalize(descriptor);
   }

@@ -10,17 +10,19 @@ namespace {
 // Below it the closed forms cancel, and three terms of the series are exact to the last bit.
 constexpr double kSmallAngle = 1e-2;
 
-/// The matrix V with translation of exp(w, v) = V v.
-Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& rotation) {
-  const double angle = rotation.norm();
-  const Eigen::Matrix3d cross = skew(rotation);
-  const double square = angle * angle;
-  const double a = angle < kSmallAngle ? 0.5 - square / 24 + square * square / 720
-                                       : (1 - std::cos(angle)) / square;
-  const double b = angle < kSmallAngle ? 1.0 / 6 - square / 120 + square * square / 5040
-                                       : (angle - std::sin(angle)) / (square * angle);
-  return Eigen::Matrix3d::Identity() + a * cross + b * cross * cross;
-}
+/// V = I + a [w]x + b [w]x^2 with translation of exp(w, v) = V v.
+struct LeftJacobian {
+  explicit LeftJacobian(double angle) {
+    const double square = angle * angle;
+    const bool small = angle < kSmallAngle;
+    a = small ? 0.5 - square / 24 + square * square / 720 : (1 - std::cos(angle)) / square;
+    b = small ? 1.0 / 6 - square / 120 + square * square / 5040
+              : (angle - std::sin(angle)) / (square * angle);
+  }
+
+  double a;
+  double b;
+};
 
 }  // namespace
 
@@ -35,11 +37,16 @@ Pose expMotion(const Vector6d& twist) {
   const double angle = rotation.norm();
   Pose motion;
   const double half = angle / 2;
-  const double factor = angle > 0 ? std::sin(half) / angle : 0.5;
-  motion.rotation.w() = std::cos(half);
+  const double square = half * half;
+  const bool small = angle < kSmallAngle;
+  const double factor = small ? 0.5 - square / 12 + square * square / 240 : std::sin(half) / angle;
+  motion.rotation.w() = small ? 1 - square / 2 + square * square / 24 : std::cos(half);
   motion.rotation.vec() = factor * rotation;
   motion.rotation.normalize();
-  motion.translation = leftJacobian(rotation) * twist.tail<3>();
+  const LeftJacobian jacobian(angle);
+  const Eigen::Vector3d shift = twist.tail<3>();
+  const Eigen::Vector3d turned = rotation.cross(shift);
+  motion.translation = shift + jacobian.a * turned + jacobian.b * rotation.cross(turned);
   return motion;
 }
 
@@ -52,7 +59,11 @@ Vector6d logMotion(const Pose& motion) {
   const double angle = 2 * std::atan2(sine, q.w());
   Vector6d twist;
   twist.head<3>() = (sine > 0 ? angle / sine : 2) * q.vec();
-  twist.tail<3>() = leftJacobian(twist.head<3>()).partialPivLu().solve(motion.translation);
+  const LeftJacobian jacobian(angle);
+  const Eigen::Matrix3d cross = skew(twist.head<3>());
+  const Eigen::Matrix3d left =
+      Eigen::Matrix3d::Identity() + jacobian.a * cross + jacobian.b * cross * cross;
+  twist.tail<3>() = left.partialPivLu().solve(motion.translation);
   return twist;
 }
 
