@@ -86,7 +86,8 @@ def to_markdown(report, intervals=True):
 
 
 def latex_text(text):
-    return "".join(LATEX_SPECIAL.get(character, character) for character in str(text))
+    escaped = "".join(LATEX_SPECIAL.get(character, character) for character in str(text))
+    return escaped.replace(r"\textasciicircum{}H", r"$^{H}$")
 
 
 def latex_cell(column, cell, rank, intervals):
