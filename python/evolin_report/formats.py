@@ -33,7 +33,7 @@ def markdown_text(text):
 
 def markdown_cell(column, cell, rank, reasons, intervals):
     if cell.value is None:
-        return "%s ^%d^" % (DASH, reasons[cell.reason])
+        return "%s<sup>%d</sup>" % (DASH, reasons[cell.reason])
     text = column.shown(cell.value)
     if rank:
         text = ("**%s**" if rank == 1 else "<u>%s</u>") % text
@@ -53,13 +53,13 @@ def markdown_table(table, intervals):
                   for column, cell, rank in zip(row.columns, row.cells, row.ranks)]
         lines.append("| %s |" % " | ".join(cells))
     notes = [table.note] if table.note else []
-    notes += ["%s ^%d^: %s." % (DASH, index, markdown_text(reason).rstrip("."))
+    notes += ["%s<sup>%d</sup>: %s." % (DASH, index, markdown_text(reason).rstrip("."))
               for reason, index in reasons.items()]
     return "\n".join(lines) + "\n" + ("\n" + "  \n".join(notes) + "\n" if notes else "")
 
 
 def to_markdown(report, intervals=True):
-    lines = ["# %s\n" % report.title, report.summary() + "\n"]
+    lines = ["# %s\n" % report.title, report.summary(intervals) + "\n"]
     sequence = None
     for table in report.tables:
         if table.sequence != sequence:
@@ -131,7 +131,7 @@ def latex_table(table, intervals):
 
 def to_latex(report, intervals=True):
     head = ["% " + report.title.replace("\n", " "),
-            "% " + report.summary().replace("\n", " "),
+            "% " + report.summary(intervals).replace("\n", " "),
             "% needs \\usepackage{booktabs}; best in bold, second underlined"]
     return "\n".join(head) + "\n\n" + "\n\n".join(
         latex_table(table, intervals) for table in report.tables + report.extra_tables) + "\n"
@@ -182,7 +182,7 @@ def json_table(table, intervals):
 def to_json(report, intervals=True):
     """Strict JSON; a null has a reason beside it. `scale` turns a value into the unit shown."""
     return json.dumps({
-        "title": report.title, "summary": report.summary(),
+        "title": report.title, "summary": report.summary(intervals),
         "tables": [json_table(table, intervals) for table in report.tables],
         "additional_tables": [json_table(table, intervals) for table in report.extra_tables],
         "runs": [dict(zip(["run"] + report.origin_titles(), [name] + list(values)))

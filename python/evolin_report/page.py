@@ -150,7 +150,7 @@ def to_html(report, made, intervals=True):
             escape(report.extra_title), "".join(
                 table_html(table, intervals) for table in report.extra_tables))
     notes = "".join("<li>%s</li>" % escape(note) for note in report.notes())
-    summary = report.summary().replace("`", "")
+    summary = report.summary(intervals).replace("`", "")
     return """<!DOCTYPE html>
 <html lang="en">
 <head>

@@ -33,7 +33,7 @@ class Report:
                 found.append(run.protocol)
         return found
 
-    def summary(self):
+    def summary(self, intervals=True):
         states = {}
         for run in self.runs:
             states[run.state] = states.get(run.state, 0) + 1
@@ -48,8 +48,8 @@ class Report:
             text += " %s frames evaluated%s." % (
                 least if least == most else "%d to %d" % (least, most),
                 "" if len(frames) == 1 else " in each")
-        return text + (" Ratios in percent, with 95 % intervals where the runs computed them; best "
-                       "in bold, second underlined.")
+        return "%s Ratios in percent%s; best in bold, second underlined." % (
+            text, ", with 95 % intervals where the runs computed them" if intervals else "")
 
     def origin_titles(self):
         return ["state", "program", "protocol", "input", "sha256", "parameters", "machine",
