@@ -113,7 +113,13 @@ def sequence_html(report, made, sequence, intervals):
     most = None if len(report.runs) <= RUNS_WITH_ALL_PICTURES else FEWER_PICTURES
     parts = [table_html(table, intervals) for table in report.tables if table.sequence == sequence]
     figures = [plot_html(plot) for plot in made if plot.sequence == sequence]
-    frames = [text for text in (worst_frames_html(run, most) for run in runs) if text]
+    frames, shown = [], set()
+    for run in runs:
+        method = (run.benchmark, run.detector) if run.benchmark else run.id
+        text = "" if method in shown else worst_frames_html(run, most)
+        if text:
+            shown.add(method)
+            frames.append(text)
     if not figures:
         figures = ['<p class="card note">No curves: nothing of this sequence was evaluated.</p>']
     return '<section id="%s"><h2>%s</h2>%s<div class="plots">%s</div>%s</section>' % (

@@ -9,6 +9,7 @@ from .errors import ReportError
 
 REPORT = "report.json"
 MATRIX = "matrix.json"
+NO_METHOD = "-"
 
 
 def refuse_literal(name):
@@ -106,10 +107,11 @@ class Run:
         return self._tables[name]
 
     def label(self, with_associator=False):
-        parts = [self.detector or "no lines"]
+        """The detector, with what tells a plain run from its likes."""
+        parts = [self.detector or NO_METHOD]
         if with_associator and self.associator:
             parts.append(self.associator)
-        if self.setting:
+        if self.setting and not self.benchmark:
             parts.append(self.setting)
         return " + ".join(parts)
 
@@ -179,6 +181,12 @@ def text_of(setting):
     return str(setting)
 
 
+def method_name(cell, kind):
+    """The label of a cell's detector or associator, else its name; "" where it has none."""
+    name = cell.get(kind + "_label") or cell.get(kind)
+    return "" if name is None or name == "none" else str(name)
+
+
 def read_cell(root, entry, path):
     """A cell of matrix.json with what its own folder says, which is the newer of the two."""
     if not isinstance(entry, dict) or not isinstance(entry.get("id"), str):
@@ -204,8 +212,8 @@ def read_cell(root, entry, path):
         state = "incomplete"
         reason = "the run was cut short"
     return Run(folder, entry["id"], report, sequence=cell.get("sequence"),
-               detector=entry.get("detector_label") or cell.get("detector"),
-               associator=cell.get("associator"), setting=text_of(cell.get("setting")),
+               detector=method_name(cell, "detector"),
+               associator=method_name(cell, "associator"), setting=text_of(cell.get("setting")),
                state=state, reason=str(reason), benchmark=os.path.abspath(root))
 
 

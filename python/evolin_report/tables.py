@@ -121,13 +121,40 @@ def by_detector(runs):
     return one_each(runs, lambda run: (run.detector, run.setting))
 
 
-def asked(runs, family):
-    """Whether a run has the family, or might have had it."""
-    return any(run.section(family) for run in runs)
+def families_by_setting(runs):
+    """(benchmark, setting) to the sections that its cells with a report have."""
+    found = {}
+    for run in runs:
+        if run.report:
+            found.setdefault((run.benchmark, run.setting), set()).update(run.report)
+    return found
+
+
+def concerned(runs, family):
+    """The runs that a table of this family has rows for: plain ones all, of a benchmark the cells
+    whose setting asks for it. What a cell without a report was to measure, others of its setting
+    tell; where there are none, whether it has a detector or an associator."""
+    if not any(run.section(family) or not run.report for run in runs):
+        return []
+    known = families_by_setting(runs)
+    chosen = []
+    for run in runs:
+        families = known.get((run.benchmark, run.setting))
+        if not run.benchmark:
+            chosen.append(run)
+        elif families is not None:
+            if family in families:
+                chosen.append(run)
+        elif run.associator if family in ("association", "pose") else run.detector:
+            chosen.append(run)
+    # A dash throughout, because nobody asked, is no table.
+    if not any(run.section(family) for run in chosen) and family != "detection":
+        return []
+    return chosen
 
 
 def detection_tables(sequence, runs):
-    runs = by_detector(runs)
+    runs = by_detector(concerned(runs, "detection"))
     thresholds = thresholds_of(runs, "detection")
     scored = [run for run in runs if run.section("detection").get("scored") or not run.report]
     areas = [percent("%sAP%g" % (letter, threshold), "%sAP%g" % (letter, threshold))
@@ -157,7 +184,7 @@ def heatmap_table(sequence, runs):
                    percent("F_H", "F^H")],
                   "With score thresholds: AP^H over them, F^H the largest F, with its P and R. "
                   "Without: P, R and F of all lines.")
-    for run in by_detector(runs):
+    for run in by_detector(concerned(runs, "heatmap")):
         table.add([run.label()], [figures.heatmap(run, key) for key in (
             "average_precision", "precision", "recall", "f_score")], run)
     return table
@@ -174,7 +201,7 @@ def repeatability_settings(run):
 
 
 def repeatability_tables(sequence, runs):
-    runs = by_detector(runs)
+    runs = by_detector(concerned(runs, "repeatability"))
     thresholds = thresholds_of(runs, "repeatability")
     pairs = [(distance, letter, threshold) for distance, letter in DISTANCES
              for threshold in thresholds]
@@ -209,10 +236,14 @@ def repeatability_tables(sequence, runs):
 
 
 def association_tables(sequence, runs):
+    runs = concerned(runs, "association")
     with_associator = [run for run in runs if run.associator] or runs
-    ground_truth = one_each(with_associator, lambda run: (run.associator, run.setting))
+    # In a benchmark, cells on detected lines have a table of their own.
+    ground_truth = one_each([run for run in with_associator if not run.benchmark or
+                             not run.section("association_detected").get("pairs")],
+                            lambda run: (run.associator, run.setting))
     table = Table("association", "Association of ground-truth lines", sequence,
-                  ["associator", "run"],
+                  ["associator", "method of the run"],
                   [percent("precision", "P"), percent("recall", "R"), percent("f_score", "F"),
                    count("pairs", "pairs")])
     detected = Table("association_detected", "Association of detected lines", sequence,
@@ -221,8 +252,7 @@ def association_tables(sequence, runs):
                       count("pairs", "pairs")])
     keys = ("precision", "recall", "f_score", "pairs")
     for run in ground_truth:
-        name = (run.setting or "all detectors") if run.benchmark else run.label()
-        table.add([run.associator or "-", name],
+        table.add([run.associator or "-", run.label()],
                   [figures.association(run, "association", key) for key in keys], run)
     for run in with_associator:
         if run.section("association_detected").get("pairs"):
@@ -233,6 +263,7 @@ def association_tables(sequence, runs):
 
 
 def pose_table(sequence, runs):
+    runs = concerned(runs, "pose")
     areas = []
     for run in runs:
         for area in run.section("pose").get("auc") or []:
@@ -292,26 +323,26 @@ def sequences_of(runs):
     return found
 
 
+def name_settings(table):
+    """Where cells of a benchmark differ by their setting, rows bear its name besides."""
+    if len({row.run.setting for row in table.rows if row.run.benchmark}) > 1:
+        for row in table.rows:
+            if row.run.benchmark:
+                row.keys[0] += " + " + row.run.setting
+
+
 def make_tables(runs):
     """All tables, sequence by sequence. A family that no run was asked for has none."""
     made = []
     for sequence in sequences_of(runs):
-        of_sequence = [run for run in runs if run.sequence == sequence]
-        anything = any(run.report for run in of_sequence)
-        made_here = []
-        if asked(of_sequence, "detection") or not anything:
-            made_here += detection_tables(sequence, of_sequence)
-        if asked(of_sequence, "heatmap"):
-            made_here.append(heatmap_table(sequence, of_sequence))
-        if asked(of_sequence, "repeatability"):
-            made_here += repeatability_tables(sequence, of_sequence)
-        if asked(of_sequence, "association"):
-            made_here += association_tables(sequence, of_sequence)
-        if asked(of_sequence, "pose"):
-            made_here.append(pose_table(sequence, of_sequence))
-        made_here += [speed_table(sequence, of_sequence), coverage_table(sequence, of_sequence)]
-        for table in made_here:
+        here = [run for run in runs if run.sequence == sequence]
+        of_sequence = (detection_tables(sequence, here) + [heatmap_table(sequence, here)] +
+                       repeatability_tables(sequence, here) + association_tables(sequence, here) +
+                       [pose_table(sequence, here), speed_table(sequence, here),
+                        coverage_table(sequence, here)])
+        for table in of_sequence:
             if table.rows:
+                name_settings(table)
                 table.rank()
                 made.append(table)
     return made

@@ -190,6 +190,40 @@ class Benchmark(TablesTest):
         self.assertEqual(self.cell(made, "detection", "sP5")[0].reason, "pending: not run yet")
 
 
+    def test_settings_that_measure_different_things_do_not_fill_each_others_tables(self):
+        def entry(name, detector, associator, setting, state="finished", reason=None):
+            return {"id": name, "sequence": "room", "detector": detector,
+                    "detector_label": None if detector == "none" else detector.upper(),
+                    "associator": associator, "associator_label": None, "setting": setting,
+                    "state": state, "reason": reason}
+        cells = [
+            (entry("1", "lsd", "none", "lines"), report(association=None)),
+            (entry("2", "hawp", "none", "lines", "failed", "broken"), None),
+            (entry("3", "none", "lbd", "matches"), report(detection=None)),
+            (entry("4", "none", "wld", "matches", "unavailable", "no file"), None),
+            (entry("5", "lsd", "lbd", "poses"), report(detection=None, association=None,
+                                                      pose=pose())),
+            (entry("6", "hawp", "lbd", "poses", "failed", "broken"), None)]
+        made = self.make(self.benchmark("root", cells))
+        self.assertEqual({name: [row.keys for row in self.table(made, name).rows] for name in
+                          ("detection", "association", "pose")},
+                         {"detection": [["LSD"], ["HAWP"]],
+                          "association": [["lbd", "-"], ["wld", "-"]],
+                          "pose": [["LSD", "lbd"], ["HAWP", "lbd"]]})
+        self.assertEqual(self.cell(made, "association", "precision", 1)[0].reason,
+                         "unavailable: no file")
+        self.assertEqual([row.keys[0] for row in self.table(made, "coverage").rows],
+                         ["LSD + lines", "HAWP + lines", "- + matches", "- + matches",
+                          "LSD + poses", "HAWP + poses"])
+
+    def test_settings_that_measure_the_same_are_told_apart(self):
+        cells = [({"id": name, "sequence": "room", "detector": "lsd", "associator": "none",
+                   "setting": name, "state": "finished"}, report()) for name in ("plain", "strict")]
+        made = self.make(self.benchmark("root", cells))
+        self.assertEqual([row.keys for row in self.table(made, "detection").rows],
+                         [["lsd + plain"], ["lsd + strict"]])
+
+
 class Refusals(TablesTest):
     def refused(self, folder):
         with self.assertRaises(ReportError) as caught:
