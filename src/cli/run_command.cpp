@@ -22,6 +22,7 @@
 #include "recording_input.h"
 #include "selection_options.h"
 #include "thread_option.h"
+#include "worst_frames.h"
 
 namespace evolin::cli {
 
@@ -56,6 +57,7 @@ struct RunOptions {
   int bootstrap = static_cast<int>(BootstrapOptions().resamples);
   std::string output;
   int threads = 0;
+  int worst_frames = 6;
   bool quiet = false;
 };
 
@@ -98,6 +100,8 @@ po::options_description describe(RunOptions* options) {
       "resamples for 95 % intervals, 0: none");
   add("output,o", po::value(&options->output)->value_name("DIR")->required(),
       "folder to write; one that 'evolin run' made before is replaced");
+  add("worst-frames", po::value(&options->worst_frames)->value_name("N")->default_value(6),
+      "pictures of the frames with the lowest F-score, for 'evolin report --html'; 0: none");
   add("threads", po::value(&options->threads)->value_name("N")->default_value(0), kThreadsHelp);
   add("quiet,q", po::bool_switch(&options->quiet), "no progress");
   return description.add(methods).add(evaluation);
@@ -195,6 +199,10 @@ void check(RunOptions* options, const po::variables_map& given) {
     throw UsageError("--associate: is " + quote(options->associate) +
                      ", expected ground-truth or detected");
   }
+  if (options->worst_frames < 0) {
+    throw UsageError("--worst-frames: is " + std::to_string(options->worst_frames) +
+                     ", expected 0 or more");
+  }
   if (options->frame_step < 1) {
     throw UsageError("--frame-step: is " + std::to_string(options->frame_step) +
                      ", expected 1 or more");
@@ -242,6 +250,10 @@ int runRun(const std::vector<std::string>& arguments) {
   const std::unique_ptr<PartReader> reader =
       options.input.open(wantedParts(run.evaluation.pass.families), needs);
 
+  WorstFrames worst_frames(static_cast<std::size_t>(options.worst_frames),
+                           run.evaluation.pass.evaluation.vectorized);
+  run.observer = &worst_frames;
+
   const InterruptGuard guard;
   OutputFolder folder(options.output, kMarker, true);
   std::optional<Progress> progress;
@@ -264,6 +276,7 @@ int runRun(const std::vector<std::string>& arguments) {
   const std::string summary = toMarkdown(result.reports.back());
   writeReports(std::move(result.reports), parametersText(options, detector, associator, evaluation),
                reader->provenance(), options.input.hashes(), folder.path());
+  worst_frames.write(folder.path());
   writeFileAtomically(folder.path() / kMarker,
                       programVersion() + " run\ninput " + options.input.names() + "\n" +
                           (result.interrupted ? "incomplete\n" : "complete\n"));

@@ -6,12 +6,14 @@
 #include <numeric>
 
 #include "evolin_ros/base/atomic_file.h"
+#include "evolin_ros/evaluation/report_curves.h"
 
 namespace evolin {
 
 namespace {
 
 constexpr char kFrames[] = "frames.csv";
+constexpr char kCurves[] = "curves.csv";
 constexpr char kPairs[] = "pairs.csv";
 constexpr char kRepeatabilities[] = "repeatability.csv";
 constexpr char kPoses[] = "poses.csv";
@@ -107,6 +109,12 @@ std::filesystem::path writeReport(const Report& report, const std::filesystem::p
     writeFileAtomically(folder / kTrueMotions, motionsToTum(report, false));
     writeFileAtomically(folder / kEstimatedMotions, motionsToTum(report, true));
   }
+  if (!report.curves.empty()) {
+    writeFileAtomically(folder / kCurves, curvesToCsv(report));
+  } else {  // one of an earlier state is not of this report
+    std::error_code ignored;
+    std::filesystem::remove(folder / kCurves, ignored);
+  }
   writeFileAtomically(folder / kSummary, toMarkdown(report));
   const std::filesystem::path file = folder / kReport;
   writeFileAtomically(file, toJson(report));
@@ -115,7 +123,7 @@ std::filesystem::path writeReport(const Report& report, const std::filesystem::p
 
 void removeReport(const std::filesystem::path& folder) {
   std::error_code ignored;
-  for (const char* name : {kFrames, kPairs, kRepeatabilities, kPoses, kTrueMotions,
+  for (const char* name : {kFrames, kCurves, kPairs, kRepeatabilities, kPoses, kTrueMotions,
                            kEstimatedMotions, kSummary, kReport}) {
     std::filesystem::remove(folder / name, ignored);
   }

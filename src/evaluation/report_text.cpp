@@ -177,7 +177,8 @@ std::string framesToCsv(const Report& report) {
     const std::vector<double>& thresholds = report.heatmap.score_thresholds;
     const std::string name =
         "heatmap" + (thresholds.empty() ? "" : "_" + formatDouble(thresholds[i]));
-    for (const char* figure : {"_precision", "_recall", "_f_score"}) {
+    for (const char* figure :
+         {"_true_positives", "_predicted", "_ground_truth", "_precision", "_recall", "_f_score"}) {
       text += "," + name + figure;
     }
   }
@@ -202,12 +203,13 @@ std::string framesToCsv(const Report& report) {
     }
     for (std::size_t i = 0; heatmap && i < report.heatmap.counts.size(); ++i) {
       if (frame.heatmap.empty()) {
-        text += ",,,";
+        text += ",,,,,,";
         continue;
       }
       const Classification& counts = frame.heatmap[i];
-      text += "," + formatDouble(counts.precision()) + "," + formatDouble(counts.recall()) + "," +
-              formatDouble(counts.fScore());
+      text += "," + std::to_string(counts.true_positives) + "," + std::to_string(counts.predicted) +
+              "," + std::to_string(counts.ground_truth) + "," + formatDouble(counts.precision()) +
+              "," + formatDouble(counts.recall()) + "," + formatDouble(counts.fScore());
     }
     text += "\n";
   }

@@ -6,6 +6,7 @@
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/evaluation/report_confidence.h"
+#include "evolin_ros/evaluation/report_curves.h"
 #include "evolin_ros/evaluation/stream_evaluator.h"
 
 namespace evolin {
@@ -54,6 +55,7 @@ class Run : public FrontEndSink {
         reports_.push_back(std::move(*previous));
       }
       reports_.push_back(evaluator_.report(complete));
+      addCurves(evaluator_.current().evaluator().detection(), &reports_.back());
       if (options_.evaluation.bootstrap.resamples > 0) {
         addConfidence(evaluator_.current().evaluator().detection(), options_.evaluation.bootstrap,
                       &reports_.back());
@@ -76,6 +78,7 @@ class Run : public FrontEndSink {
   }
 
   void takeImage(const ImagePart& image) override {
+    tell([&](FrontEndSink* observer) { observer->takeImage(image); });
     const Stamp stamp = image.frame.stamp;
     ++images_;
     first_ = std::min(stamp, first_.value_or(stamp));
@@ -88,18 +91,27 @@ class Run : public FrontEndSink {
   }
   void takePose(const StampedPose& pose) override { take(evaluator_.addPose(pose)); }
   void takeGroundTruth(const LineSet& ground_truth) override {
+    tell([&](FrontEndSink* observer) { observer->takeGroundTruth(ground_truth); });
     take(evaluator_.addGroundTruth(ground_truth));
   }
-  void takeLines(const LineSet& lines, const ImagePart& /*image*/) override {
+  void takeLines(const LineSet& lines, const ImagePart& image) override {
+    tell([&](FrontEndSink* observer) { observer->takeLines(lines, image); });
     take(evaluator_.addLines(lines));
   }
-  void takeMatches(const MatchSet& matches, const Frame& /*first*/,
-                   const Frame& /*second*/) override {
+  void takeMatches(const MatchSet& matches, const Frame& first, const Frame& second) override {
+    tell([&](FrontEndSink* observer) { observer->takeMatches(matches, first, second); });
     take(evaluator_.addMatches(matches));
   }
   void takeNote(const std::string& text) override { evaluator_.addNote(text); }
 
  private:
+  template <class Tell>
+  void tell(const Tell& say) {
+    if (options_.observer != nullptr) {
+      say(options_.observer);
+    }
+  }
+
   void take(EvaluationUpdate update) {
     std::move(update.tasks.begin(), update.tasks.end(), std::back_inserter(tasks_));
     if (update.new_pass) {

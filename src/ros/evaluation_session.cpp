@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "evolin_ros/evaluation/report_confidence.h"
+#include "evolin_ros/evaluation/report_curves.h"
 #include "node_parameters.h"
 
 namespace evolin::ros_shell {
@@ -197,6 +198,9 @@ std::filesystem::path EvaluationSession::save(bool complete, bool confidence) {
   }
   Report report = newest->second.report(complete);
   report.pass = newest->first;
+  if (confidence) {
+    addCurves(newest->second.evaluator().detection(), &report);
+  }
   if (confidence && options_.bootstrap.resamples > 0) {
     addConfidence(newest->second.evaluator().detection(), options_.bootstrap, &report);
   }

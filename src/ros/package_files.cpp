@@ -7,13 +7,15 @@
 
 namespace evolin {
 
-std::filesystem::path cameraFolder() {
+std::filesystem::path packageFolder() {
   const std::string package = ros::package::getPath("evolin_ros");
   if (package.empty()) {
     throw Error(
         "the package evolin_ros is not on ROS_PACKAGE_PATH; source the workspace's setup.bash");
   }
-  return std::filesystem::path(package) / "config" / "cameras";
+  return package;
 }
+
+std::filesystem::path cameraFolder() { return packageFolder() / "config" / "cameras"; }
 
 }  // namespace evolin

@@ -6,8 +6,11 @@
 
 namespace evolin {
 
-/// The folder of camera presets, config/cameras. Throws Error when the package is not on the
+/// The folder that holds config, launch and python. Throws Error when the package is not on the
 /// package path.
+std::filesystem::path packageFolder();
+
+/// The folder of camera presets, config/cameras. Throws as packageFolder().
 std::filesystem::path cameraFolder();
 
 }  // namespace evolin

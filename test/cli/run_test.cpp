@@ -123,6 +123,18 @@ TEST_F(RunTest, TheReportSaysHowItCameAboutAndWhereTheTimeWent) {
   EXPECT_LT(sum, run.at("wall_s").get<double>() * run.at("threads").get<int>());
 }
 
+TEST_F(RunTest, PicturesOfTheWorstFramesAreKeptAsAsked) {
+  test::writeEvolinFolder(test::drawSequence(), path("data"));
+  ASSERT_EQ(run("data", "two", {"--metrics", "detection", "--worst-frames", "2"}).status,
+            kExitDone);
+  EXPECT_TRUE(fs::exists(path("two/worst_frames/2.jpg")));
+  EXPECT_FALSE(fs::exists(path("two/worst_frames/3.jpg")));
+  ASSERT_EQ(run("data", "none", {"--metrics", "detection", "--worst-frames", "0"}).status,
+            kExitDone);
+  EXPECT_FALSE(fs::exists(path("none/worst_frames.csv")));
+  EXPECT_EQ(run("data", "less", {"--worst-frames", "-1"}).status, kExitWrongUse);
+}
+
 TEST_F(RunTest, ABrokenImageIsCountedAndNamed) {
   std::vector<SequenceFrame> frames = test::drawSequence();
   test::writeEvolinFolder(frames, path("data"));

@@ -209,7 +209,7 @@ TEST(ReportCsv, HasTheSameColumnsInEveryRow) {
   for (const Report& report : sampleReports()) {
     const std::vector<std::string> frames = linesOf(framesToCsv(report));
     ASSERT_EQ(frames.size(), report.frames.size() + 1);
-    const std::size_t columns = 6 + 6 * 6 + 3;
+    const std::size_t columns = 6 + 6 * 6 + 6;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const std::vector<std::string> cells = cellsOf(frames[i]);
       ASSERT_EQ(cells.size(), columns) << frames[i];
@@ -220,7 +220,7 @@ TEST(ReportCsv, HasTheSameColumnsInEveryRow) {
       const bool evaluated = frame.state == FrameState::kEvaluated;
       EXPECT_EQ(cells[5].empty(), !evaluated);
       for (std::size_t column = 6; column < columns; ++column) {
-        const bool heatmap = column >= columns - 3;
+        const bool heatmap = column >= columns - 6;
         // The sixth of a setting's columns is the average precision, which may be undefined.
         if (!heatmap && evaluated && column % 6 == 5) continue;
         EXPECT_EQ(cells[column].empty(), heatmap ? frame.heatmap.empty() : !evaluated) << column;

@@ -191,6 +191,12 @@ struct FigureInterval {
   ConfidenceInterval interval;
 };
 
+/// How precision and recall go together under one setting, by falling score.
+struct DetectionCurve {
+  VectorizedSetting setting;
+  PrecisionRecallCurve points;
+};
+
 struct ReportConfidence {
   BootstrapOptions options;
   std::vector<FigureInterval> figures;
@@ -228,6 +234,7 @@ struct Report {
   TimingSummary associator_timing;
   std::optional<RunTiming> run;                           ///< of runSequence() alone
   std::optional<ReportConfidence> confidence;             ///< addConfidence(); none: not asked for
+  std::vector<DetectionCurve> curves;                     ///< addCurves(); empty without scores
   std::vector<FrameRecord> frames;                        ///< every frame seen, by stamp
   std::vector<PairRecord> pair_records;                   ///< every pair evaluated, by stamp
   std::vector<DetectedPairRecord> detected_pair_records;  ///< by stamp

@@ -17,6 +17,9 @@ struct SequenceRunOptions {
   EvaluationSettings evaluation;
   FrontEndOptions front_end;
   int threads = 1;
+  /// Is told of images, lines, ground truth and matches as well, in the recording's order; outlives
+  /// the run. None: nobody else wants to know.
+  FrontEndSink* observer = nullptr;
 };
 
 struct SequenceRunResult {
