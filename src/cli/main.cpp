@@ -5,6 +5,7 @@
 #include "detect_command.h"
 #include "evaluate_command.h"
 #include "list_command.h"
+#include "models_command.h"
 #include "run_command.h"
 #include "synth_command.h"
 #include "validate_command.h"
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
       evolin::cli::detectCommand(),
       evolin::cli::evaluateCommand(),
       evolin::cli::listCommand(),
+      evolin::cli::modelsCommand(),
       evolin::cli::runCommand(),
       evolin::cli::synthCommand(),
       evolin::cli::validateCommand(),

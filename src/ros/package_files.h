@@ -10,4 +10,7 @@ namespace evolin {
 /// package path.
 std::filesystem::path cameraFolder();
 
+/// The list of network files, config/models.yaml; throws as above.
+std::filesystem::path modelCatalogueFile();
+
 }  // namespace evolin
