@@ -48,7 +48,9 @@ void printTable(const Found& found, bool all) {
       std::cout << indent << "get it: " << entry.get << "\n"
                 << indent << entry.repository << " (" << entry.licence << ")\n";
     } else {
-      std::cout << indent << status.file.string() << "\n" << indent << status.detail << "\n";
+      std::cout << indent << status.file.string() << "\n"
+                << indent << (status.state == ModelState::kDamaged ? "" : "SHA-256 ")
+                << status.detail << "\n";
     }
     if (status.state == ModelState::kWrongSum && !entry.sha256.empty()) {
       std::cout << indent << "expected the SHA-256 " << entry.sha256 << "\n";
