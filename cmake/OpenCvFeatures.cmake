@@ -1,8 +1,9 @@
 # Finds out what the installed OpenCV offers to the detectors and associators. Include it after
-# find_package(OpenCV). Sets EVOLIN_OPENCV_LIBRARIES (what a target that detects lines links) and
-# EVOLIN_OPENCV_LINE_DESCRIPTOR (what one that describes them links besides; empty where the module
-# is absent), and writes generated/evolin_opencv_features.h, which only src/detection and
-# src/association include. Nothing here fails when a method is absent: the plug-in says so at run
+# find_package(OpenCV). Sets EVOLIN_OPENCV_LIBRARIES (what a target that detects lines links),
+# EVOLIN_OPENCV_LINE_DESCRIPTOR (what one that describes them links besides) and EVOLIN_OPENCV_DNN
+# (what runs networks; both empty where the module is absent), and writes
+# generated/evolin_opencv_features.h, which only src/detection, src/association and src/inference
+# include. Nothing here fails when a method is absent: the plug-in says so at run
 # time.
 
 include(CMakePushCheckState)
@@ -20,6 +21,7 @@ string(MAKE_C_IDENTIFIER "${OpenCV_VERSION}" _evolin_opencv)
 set(_evolin_fld EVOLIN_OPENCV_${_evolin_opencv}_FAST_LINE_DETECTOR)
 set(_evolin_edges EVOLIN_OPENCV_${_evolin_opencv}_EDGE_DRAWING)
 set(_evolin_lsd EVOLIN_OPENCV_${_evolin_opencv}_LSD)
+set(_evolin_dnn EVOLIN_OPENCV_${_evolin_opencv}_DNN)
 set(_evolin_line_descriptor EVOLIN_OPENCV_${_evolin_opencv}_LINE_DESCRIPTOR)
 
 cmake_push_check_state(RESET)
@@ -78,6 +80,17 @@ else()
     }" ${_evolin_lsd})
 endif()
 
+if(TARGET opencv_dnn)
+  set(CMAKE_REQUIRED_LIBRARIES opencv_core opencv_dnn)
+  check_cxx_source_compiles("
+    #include <opencv2/dnn.hpp>
+    #include <vector>
+    int main() {
+      cv::dnn::Net net = cv::dnn::readNetFromONNX(std::vector<unsigned char>(1));
+      return cv::dnn::getAvailableTargets(cv::dnn::DNN_BACKEND_OPENCV).empty() || net.empty();
+    }" ${_evolin_dnn})
+endif()
+
 if(TARGET opencv_line_descriptor)
   set(CMAKE_REQUIRED_LIBRARIES opencv_core opencv_line_descriptor)
   check_cxx_source_compiles("
@@ -99,7 +112,12 @@ if(${_evolin_line_descriptor})
   set(EVOLIN_OPENCV_LINE_DESCRIPTOR opencv_line_descriptor)
 endif()
 
-foreach(_evolin_feature LSD FAST_LINE_DETECTOR EDGE_DRAWING LINE_DESCRIPTOR)
+set(EVOLIN_OPENCV_DNN)
+if(${_evolin_dnn})
+  set(EVOLIN_OPENCV_DNN opencv_dnn)
+endif()
+
+foreach(_evolin_feature LSD FAST_LINE_DETECTOR EDGE_DRAWING LINE_DESCRIPTOR DNN)
   if(EVOLIN_OPENCV_${_evolin_opencv}_${_evolin_feature})
     set(EVOLIN_HAS_${_evolin_feature} 1)
   else()
@@ -110,4 +128,4 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/evolin_opencv_features.h.in
   ${CMAKE_CURRENT_BINARY_DIR}/generated/evolin_opencv_features.h @ONLY)
 message(STATUS "OpenCV ${OpenCV_VERSION}: LSD ${EVOLIN_HAS_LSD}, FastLineDetector "
   "${EVOLIN_HAS_FAST_LINE_DETECTOR}, EdgeDrawing ${EVOLIN_HAS_EDGE_DRAWING}, "
-  "BinaryDescriptor ${EVOLIN_HAS_LINE_DESCRIPTOR}")
+  "BinaryDescriptor ${EVOLIN_HAS_LINE_DESCRIPTOR}, DNN ${EVOLIN_HAS_DNN}")

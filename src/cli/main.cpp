@@ -5,6 +5,7 @@
 #include "detect_command.h"
 #include "evaluate_command.h"
 #include "list_command.h"
+#include "models_command.h"
 #include "report_command.h"
 #include "run_command.h"
 #include "synth_command.h"
@@ -12,14 +13,9 @@
 
 int main(int argc, char** argv) {
   const std::vector<evolin::cli::Command> commands = {
-      evolin::cli::associateCommand(),
-      evolin::cli::bagCommand(),
-      evolin::cli::detectCommand(),
-      evolin::cli::evaluateCommand(),
-      evolin::cli::listCommand(),
-      evolin::cli::reportCommand(),
-      evolin::cli::runCommand(),
-      evolin::cli::synthCommand(),
+      evolin::cli::associateCommand(), evolin::cli::bagCommand(),  evolin::cli::detectCommand(),
+      evolin::cli::evaluateCommand(),  evolin::cli::listCommand(), evolin::cli::modelsCommand(),
+      evolin::cli::reportCommand(),    evolin::cli::runCommand(),  evolin::cli::synthCommand(),
       evolin::cli::validateCommand(),
   };
   return evolin::cli::runProgram(commands, {argv + 1, argv + argc});

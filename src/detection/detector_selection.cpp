@@ -53,13 +53,18 @@ LineFilter::LineFilter(const DetectorSelection& selection) : mask_file_(selectio
 
 LineSegments LineFilter::apply(LineSegments lines, cv::Size size, const std::string& owner) const {
   clipToImage(size, &lines);
+  return applyUncut(std::move(lines), size, owner);
+}
+
+LineSegments LineFilter::applyUncut(LineSegments lines, cv::Size size,
+                                    const std::string& owner) const {
   if (!mask_.empty()) {
     if (mask_.size() != size) {
       throw Error(owner + ": the mask " + mask_file_ + " has " + text(mask_.size()) +
                   " pixels; expected " + text(size) + ", the size of the image");
     }
     const auto nearest = [](double middle, int end) {
-      return std::clamp(static_cast<int>(std::lround(middle)), 0, end - 1);
+      return static_cast<int>(std::lround(std::clamp(middle, 0.0, end - 1.0)));
     };
     lines.erase(std::remove_if(lines.begin(), lines.end(),
                                [&](const LineSegment& line) {

@@ -7,7 +7,9 @@
 #include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/lsd.h"
+#include "evolin_ros/detection/lsdnet.h"
 #include "evolin_ros/detection/lswms.h"
+#include "evolin_ros/detection/mlsd.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -18,7 +20,9 @@ PLUGINLIB_EXPORT_CLASS(evolin::Elsed, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Fld, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Fsg, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Lsd, evolin::LineDetector)
+PLUGINLIB_EXPORT_CLASS(evolin::LsdNet, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::Lswms, evolin::LineDetector)
+PLUGINLIB_EXPORT_CLASS(evolin::Mlsd, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvLsd, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvEdLines, evolin::LineDetector)
 PLUGINLIB_EXPORT_CLASS(evolin::OpenCvFld, evolin::LineDetector)

@@ -6,6 +6,7 @@
 #include "evolin_ros/base/error.h"
 
 namespace evolin {
+namespace {
 
 std::filesystem::path packageFolder() {
   const std::string package = ros::package::getPath("evolin_ros");
@@ -17,5 +18,7 @@ std::filesystem::path packageFolder() {
 }
 
 std::filesystem::path cameraFolder() { return packageFolder() / "config" / "cameras"; }
+
+std::filesystem::path modelCatalogueFile() { return packageFolder() / "config" / "models.yaml"; }
 
 }  // namespace evolin

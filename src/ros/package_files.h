@@ -13,4 +13,7 @@ std::filesystem::path packageFolder();
 /// The folder of camera presets, config/cameras. Throws as packageFolder().
 std::filesystem::path cameraFolder();
 
+/// The list of network files, config/models.yaml; throws as above.
+std::filesystem::path modelCatalogueFile();
+
 }  // namespace evolin

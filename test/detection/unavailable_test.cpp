@@ -4,6 +4,8 @@
 #include <opencv2/core/version.hpp>
 
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/detection/lsdnet.h"
+#include "evolin_ros/detection/mlsd.h"
 #include "evolin_ros/detection/opencv_edlines.h"
 #include "evolin_ros/detection/opencv_fld.h"
 #include "evolin_ros/detection/opencv_lsd.h"
@@ -41,6 +43,11 @@ TEST(UnavailableDetector, EdLinesSaysWhatIsMissing) {
 
 TEST(UnavailableDetector, FldSaysWhatIsMissing) {
   expectSaysWhatIsMissing<OpenCvFld>("opencv_fld", "FastLineDetector", "opencv_contrib");
+}
+
+TEST(UnavailableDetector, NetworksSayWhatIsMissing) {
+  expectSaysWhatIsMissing<Mlsd>("mlsd", "module dnn", "3.3");
+  expectSaysWhatIsMissing<LsdNet>("lsdnet", "module dnn", "3.3");
 }
 
 }  // namespace

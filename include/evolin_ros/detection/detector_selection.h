@@ -33,6 +33,9 @@ class LineFilter {
   /// mask's file and both sizes where the mask has another size than the image.
   LineSegments apply(LineSegments lines, cv::Size size, const std::string& owner) const;
 
+  /// The same of lines that stay as they are: not cut, and of any length.
+  LineSegments applyUncut(LineSegments lines, cv::Size size, const std::string& owner) const;
+
  private:
   LineSelection selection_;
   std::string mask_file_;

@@ -10,3 +10,4 @@ constexpr bool kOpenCvHasLsd = false;
 #define EVOLIN_HAS_FAST_LINE_DETECTOR 0
 #define EVOLIN_HAS_EDGE_DRAWING 0
 #define EVOLIN_HAS_LINE_DESCRIPTOR 0
+#define EVOLIN_HAS_DNN 0

@@ -1,0 +1,1 @@
+"""Published weights of networks to ONNX files that OpenCV's DNN module loads."""
