@@ -90,7 +90,7 @@ int runAssociate(const std::vector<std::string>& arguments) {
     front_end_options.make_detector = detectorMaker(&loader, recorded);
     front_end_options.lines_source = options.lines;
   }
-  const Needs needs = loader.loadAssociator(choice.name)->needs();
+  const Needs needs = front_end_options.make_associator()->needs();
   FrontEnd front_end(front_end_options, &pool);
   const std::unique_ptr<PartReader> reader =
       options.input.open({false, options.lines.empty()}, needs);

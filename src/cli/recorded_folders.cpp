@@ -53,9 +53,15 @@ void LineRecorder::takeLines(const LineSet& lines, const ImagePart& image) {
     writeScoresCsv(folder_ / "scores" / file, lines.lines);
   }
   lines_ += lines.lines.size();
+  if (lines.processing_time > 0) {
+    times_[image.frame.name] = lines.processing_time;
+  }
 }
 
-void LineRecorder::finish() const { writeStampsFile(folder_ / "stamps.txt", entries_); }
+void LineRecorder::finish() const {
+  writeStampsFile(folder_ / "stamps.txt", entries_);
+  writeTimesFile(folder_ / kTimesFile, times_);
+}
 
 MatchRecorder::MatchRecorder(fs::path folder) : folder_(std::move(folder)) {
   fs::create_directories(folder_ / "associations");

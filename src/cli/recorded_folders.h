@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "evolin_ros/dataset/stamps_file.h"
+#include "evolin_ros/dataset/times_file.h"
 #include "evolin_ros/evaluation/front_end.h"
 #include "output_folder.h"
 
 namespace evolin::cli {
 
-/// lines/NAME.csv and, where lines have scores, scores/NAME.csv a frame, and stamps.txt. NAME is
-/// the image file's stem, or its number where the input has no files.
+/// lines/NAME.csv and, where lines have scores, scores/NAME.csv a frame, stamps.txt and, as far as
+/// times are known, times.txt. NAME is the image file's stem, or its number where the input has no
+/// files.
 class LineRecorder : public FrontEndSink {
  public:
   LineRecorder(std::filesystem::path folder, bool scores);
@@ -21,7 +23,7 @@ class LineRecorder : public FrontEndSink {
   void takeLines(const LineSet& lines, const ImagePart& image) override;
   void takeNote(const std::string& text) override { notes_.push_back(text); }
 
-  /// Writes stamps.txt. Throws Error when stamps do not increase.
+  /// Writes stamps.txt and times.txt. Throws Error when stamps do not increase.
   void finish() const;
 
   std::size_t images() const { return images_; }
@@ -35,6 +37,7 @@ class LineRecorder : public FrontEndSink {
   std::size_t images_ = 0;
   std::size_t lines_ = 0;
   std::vector<StampedFile> entries_;
+  ProcessingTimes times_;
   std::vector<std::string> notes_;
 };
 

@@ -4,16 +4,10 @@
 #include <boost/program_options/value_semantic.hpp>
 
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 #include <optional>
 
-#include "evolin_ros/base/atomic_file.h"
 #include "evolin_ros/base/text.h"
-#include "evolin_ros/base/version.h"
-#include "evolin_ros/evaluation/method_source.h"
-#include "evolin_ros/evaluation/provenance.h"
-#include "evolin_ros/evaluation/sequence_run.h"
 #include "interrupt.h"
 #include "method_choice.h"
 #include "options.h"
@@ -21,13 +15,12 @@
 #include "progress.h"
 #include "recording_input.h"
 #include "selection_options.h"
+#include "sequence_job.h"
 #include "thread_option.h"
-#include "worst_frames.h"
 
 namespace evolin::cli {
 
 namespace po = boost::program_options;
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -38,8 +31,6 @@ constexpr const char* kUsage =
     "trajectories.\n\n"
     "Usage: evolin run --input BAG|DIR --detector NAME[:key=value,...] "
     "[--associator NAME[:key=value,...]] --output DIR [OPTIONS]";
-
-constexpr const char* kMarker = "run.txt";
 
 struct RunOptions {
   RecordingInput input;
@@ -123,74 +114,6 @@ YAML::Node evaluationParameters(const RunOptions& options) {
   return parameters;
 }
 
-EvaluationSettings readSettings(const YAML::Node& parameters) {
-  try {
-    ParameterReader reader(parameters, "--set");
-    EvaluationSettings settings = readEvaluationSettings(&reader, "--set", 0);
-    reader.finish();
-    return settings;
-  } catch (const ConfigError& error) {
-    throw UsageError(error.what());
-  }
-}
-
-Json toJson(const YAML::Node& node) {
-  if (node.IsMap()) {
-    Json object = Json::object();
-    for (const auto& entry : node) {
-      object[entry.first.Scalar()] = toJson(entry.second);
-    }
-    return object;
-  }
-  if (node.IsSequence()) {
-    Json list = Json::array();
-    for (const auto& entry : node) {
-      list.push_back(toJson(entry));
-    }
-    return list;
-  }
-  if (!node.IsScalar()) {
-    return nullptr;
-  }
-  Json value = Json::parse(node.Scalar(), nullptr, false);
-  return value.is_discarded() ? Json(node.Scalar()) : value;
-}
-
-/// What was asked for, in the words of the parameters.
-std::string parametersText(const RunOptions& options, const MethodChoice& detector,
-                           const std::optional<MethodChoice>& associator,
-                           const YAML::Node& evaluation) {
-  const LineSelection& selection = options.selection.selection;
-  Json parameters = {{"detector", detector.name},
-                     {"detector_parameters", toJson(detector.parameters)}};
-  if (!selection.keepsAll()) {
-    parameters["score_threshold"] = selection.score_threshold;
-    parameters["min_length"] = selection.min_length;
-    parameters["max_lines"] = selection.max_lines;
-  }
-  parameters["associator"] = associator ? Json(associator->name) : Json(nullptr);
-  if (associator) {
-    parameters["associator_parameters"] = toJson(associator->parameters);
-    parameters["associate"] = options.associate;
-  }
-  parameters.update(toJson(evaluation));
-  return parameters.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-/// One pass in the folder itself, those before it in pass_N.
-void writeReports(std::vector<Report> reports, const std::string& parameters,
-                  const std::string& input, const std::string& hashes,
-                  const std::filesystem::path& folder) {
-  for (Report& report : reports) {
-    addMachine(&report);
-    report.provenance["parameters"] = parameters;
-    report.provenance["input"] = input;
-    report.provenance["sha256"] = hashes;
-    const bool newest = report.pass == reports.back().pass;
-    writeReport(report, newest ? folder : folder / ("pass_" + std::to_string(report.pass)));
-  }
-}
-
 void check(RunOptions* options, const po::variables_map& given) {
   options->input.check(given);
   options->selection.check();
@@ -209,9 +132,19 @@ void check(RunOptions* options, const po::variables_map& given) {
   }
 }
 
-WantedParts wantedParts(const MetricFamilies& families) {
-  return {families.count(MetricFamily::kRepeatability) + families.count(MetricFamily::kPose) > 0,
-          true};
+RunRequest requestOf(const RunOptions& options) {
+  RunRequest request;
+  request.detector = parseMethod("--detector", options.detector, options.detector_config);
+  request.lines_name = options.detector_source;
+  request.selection = options.selection.selection;
+  if (!options.associator.empty()) {
+    request.associator = parseMethod("--associator", options.associator, options.associator_config);
+    request.associate_ground_truth = options.associate == "ground-truth";
+  }
+  request.evaluation = evaluationParameters(options);
+  request.threads = options.threads;
+  request.worst_frames = options.worst_frames;
+  return request;
 }
 
 int runRun(const std::vector<std::string>& arguments) {
@@ -221,48 +154,26 @@ int runRun(const std::vector<std::string>& arguments) {
     return kExitDone;
   }
   check(&options, given);
-  const YAML::Node evaluation = evaluationParameters(options);
+  RunRequest request = requestOf(options);
+  try {
+    readEvaluation(request.evaluation, "--set");
+  } catch (const ConfigError& error) {
+    throw UsageError(error.what());
+  }
   cv::setNumThreads(1);  // frames go to threads as wholes
   PluginLoader loader;
-  SequenceRunOptions run;
-  run.threads = options.threads;
-  run.evaluation = readSettings(evaluation);
-  FrontEndOptions& front_end = run.front_end;
-  const MethodChoice detector =
-      parseMethod("--detector", options.detector, options.detector_config);
-  front_end.make_detector = detectorMaker(&loader, detector);
-  front_end.selection = options.selection.selection;
-  front_end.lines_source =
-      methodSource(options.detector_source.empty() ? detector.name : options.detector_source,
-                   detector.parameters, front_end.selection);
-  Needs needs = loader.loadDetector(detector.name)->needs();
-  std::optional<MethodChoice> associator;
-  if (!options.associator.empty()) {
-    associator = parseMethod("--associator", options.associator, options.associator_config);
-    front_end.make_associator = associatorMaker(&loader, *associator);
-    front_end.matches_source = methodSource(associator->name, associator->parameters);
-    front_end.associate_ground_truth = options.associate == "ground-truth";
-    front_end.frame_step = run.evaluation.pass.frame_step;
-    const Needs more = loader.loadAssociator(associator->name)->needs();
-    needs.depth = needs.depth || more.depth;
-    needs.pose = needs.pose || more.pose;
-  }
-  const std::unique_ptr<PartReader> reader =
-      options.input.open(wantedParts(run.evaluation.pass.families), needs);
-
-  WorstFrames worst_frames(static_cast<std::size_t>(options.worst_frames),
-                           run.evaluation.pass.evaluation.vectorized);
-  run.observer = &worst_frames;
+  request.hashes = options.input.hashes();
+  SequenceJob job(std::move(request), options.input, &loader);
 
   const InterruptGuard guard;
-  OutputFolder folder(options.output, kMarker, true);
+  OutputFolder folder(options.output, kRunMarker, true);
   std::optional<Progress> progress;
   if (!options.quiet) {
-    progress.emplace("frames", reader->images());
+    progress.emplace("frames", job.images());
   }
   std::size_t done = 0;
-  SequenceRunResult result = runSequence(
-      run, reader.get(),
+  const RunOutcome outcome = job.run(
+      folder.path(),
       [&](std::size_t images) {
         done = images;
         if (progress) {
@@ -273,16 +184,9 @@ int runRun(const std::vector<std::string>& arguments) {
   if (progress) {
     progress->finish(done);
   }
-  const std::string summary = toMarkdown(result.reports.back());
-  writeReports(std::move(result.reports), parametersText(options, detector, associator, evaluation),
-               reader->provenance(), options.input.hashes(), folder.path());
-  worst_frames.write(folder.path());
-  writeFileAtomically(folder.path() / kMarker,
-                      programVersion() + " run\ninput " + options.input.names() + "\n" +
-                          (result.interrupted ? "incomplete\n" : "complete\n"));
   folder.commit();
-  std::cout << summary;
-  if (result.interrupted) {
+  std::cout << outcome.summary;
+  if (outcome.interrupted) {
     throw Interrupted("interrupted; the report of what was done stands in " + options.output +
                       ", marked incomplete");
   }

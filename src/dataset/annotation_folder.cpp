@@ -171,14 +171,19 @@ std::optional<LineSegments> AnnotationFolder::byName(const std::string& stem) co
   return found == index_.end() ? std::nullopt : std::make_optional(frames_[found->second]);
 }
 
-std::optional<LineSegments> AnnotationFolder::at(Stamp stamp) const {
+std::optional<std::string> AnnotationFolder::nameAt(Stamp stamp) const {
   if (!hasStamps()) {
     throw Error(folder_.string() +
                 ": no stamps.txt, so that lines cannot be found by time; expected a file with "
                 "lines \"stamp file\" such as \"1305031453.359684 0000.csv\"");
   }
   const StampedFile* entry = findNearest(entries_, stamp, kTolerance);
-  return entry == nullptr ? std::nullopt : byName(entry->file);
+  return entry == nullptr ? std::nullopt : std::make_optional(entry->file);
+}
+
+std::optional<LineSegments> AnnotationFolder::at(Stamp stamp) const {
+  const std::optional<std::string> name = nameAt(stamp);
+  return name ? byName(*name) : std::nullopt;
 }
 
 std::optional<Stamp> AnnotationFolder::firstStamp() const {

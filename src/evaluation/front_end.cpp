@@ -96,6 +96,7 @@ void FrontEnd::detectIn(const ImagePart& image, std::size_t worker, Outcome* out
       problemOf([&] { set.lines = selectLines(detector.detect(image.frame), options_.selection); });
   set.processing_time = secondsOf(StageTimes::Clock::now() - begin);
   worker_times_[worker].add(Stage::kDetect, set.processing_time);
+  set.processing_time = detector.processingTime().value_or(set.processing_time);
   if (!why.empty()) {
     outcome->problem = "no lines for image " + image.frame.name + " at " +
                        formatStamp(image.frame.stamp) + ": " + why;

@@ -275,7 +275,7 @@ class LineDetectorNodelet : public SafeNodelet {
     }
   }
 
-  /// Returns the seconds that the method took.
+  /// Returns the seconds that the call of the method took.
   double detect(const sensor_msgs::ImageConstPtr& message) {
     const auto settings = this->settings();
     Frame frame = toFrame(message);
@@ -283,8 +283,9 @@ class LineDetectorNodelet : public SafeNodelet {
     const auto begin = std::chrono::steady_clock::now();
     LineSet set;
     set.lines = selectLines(settings->detector->detect(frame), settings->options.selection);
-    set.processing_time =
+    const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    set.processing_time = settings->detector->processingTime().value_or(seconds);
     set.source = settings->source;
     set.width = frame.image.cols;
     set.height = frame.image.rows;
@@ -298,7 +299,7 @@ class LineDetectorNodelet : public SafeNodelet {
                              drawLines(frame.image, set.lines, settings->options.style))
               .toImageMsg());
     }
-    return set.processing_time;
+    return seconds;
   }
 
   DetectorOptions first_;  ///< what the nodelet was started with

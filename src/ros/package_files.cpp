@@ -6,7 +6,6 @@
 #include "evolin_ros/base/error.h"
 
 namespace evolin {
-namespace {
 
 std::filesystem::path packageFolder() {
   const std::string package = ros::package::getPath("evolin_ros");

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "test/support/expect_error.h"
 #include "test/support/temporary_folder.h"
 
@@ -52,6 +54,39 @@ TEST_F(RecordedDetectorTest, PlaysScores) {
   configure();
   EXPECT_TRUE(detector_.givesScores());
   EXPECT_EQ(detectAt(1)[1].score, 0.25);
+}
+
+TEST_F(RecordedDetectorTest, PlaysTheTimesThatTheMethodTook) {
+  folder_.write("times.txt", "# seconds name\n0.025 0000\n");
+  configure();
+  EXPECT_FALSE(detector_.processingTime()) << "before the first frame";
+  detectAt(1);
+  EXPECT_EQ(detector_.processingTime(), 0.025);
+  detectAt(2);
+  EXPECT_FALSE(detector_.processingTime()) << "of a frame without an entry";
+}
+
+TEST_F(RecordedDetectorTest, FindsTimesBesideTheFolderOfLines) {
+  folder_.write("times.txt", "0.5 0001\n");
+  YAML::Node parameters;
+  parameters["folder"] = (folder_.path() / "lines").string();
+  detector_.configure(parameters);
+  detectAt(2);
+  EXPECT_EQ(detector_.processingTime(), 0.5);
+}
+
+TEST_F(RecordedDetectorTest, RefusesTimesThatAreNone) {
+  for (const auto& [text, words] :
+       std::map<std::string, std::string>{{"0.1 0000\nx 0001\n", "times.txt:2"},
+                                          {"-1 0000\n", "at least 0"},
+                                          {"0.1\n", "expected 'seconds name'"},
+                                          {"1 a\n1 a\n", "twice"}}) {
+    folder_.write("times.txt", text);
+    RecordedDetector detector;
+    YAML::Node parameters;
+    parameters["folder"] = folder_.path().string();
+    expectError<ParseError>([&] { detector.configure(parameters); }, {words});
+  }
 }
 
 TEST_F(RecordedDetectorTest, RefusesWhatItCannotPlay) {

@@ -46,6 +46,9 @@ class AnnotationFolder {
   /// Throws Error saying how to make a stamps file when hasStamps() is false.
   std::optional<LineSegments> at(Stamp stamp) const;
 
+  /// The stem of the file whose lines at() gives, none where it gives none; throws as that.
+  std::optional<std::string> nameAt(Stamp stamp) const;
+
   /// Of the stamps file, none without one.
   std::optional<Stamp> firstStamp() const;
   std::optional<Stamp> lastStamp() const;

@@ -4,6 +4,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <optional>
 #include <string>
 
 #include "evolin_ros/dataset/frame.h"
@@ -35,6 +36,10 @@ class LineDetector {
   /// Segments in pixels of `frame.image` (8-bit grey or BGR, any size down to 1x1), in the method's
   /// own order. Throws Error for an image of another type.
   virtual LineSegments detect(const Frame& frame) = 0;
+
+  /// Seconds that the method took for the frame of the last detect(), where it knows better than a
+  /// clock around the call (a recording does); none: the clock is right.
+  virtual std::optional<double> processingTime() const { return {}; }
 };
 
 }  // namespace evolin
