@@ -157,12 +157,6 @@ std::vector<Nodelet> everyNodelet() {
                       "PointCloudLines",
                       {{"/lines", "/cloud/lines"}, {"/matches", "/cloud/matches"}}});
   nodelets.push_back({"marker_adapter", "MarkerLines", {{"/lines", "/marker/lines"}}});
-#ifdef EVOLIN_HAS_OPENCV_APPS
-  // The detector's lines go out in the foreign message and come back.
-  ros::param::set("/to_apps/direction", "to");
-  nodelets.push_back({"to_apps", "OpencvAppsLines", {}});
-  nodelets.push_back({"from_apps", "OpencvAppsLines", {{"/lines", "/apps/lines"}}});
-#endif
   return nodelets;
 }
 
