@@ -8,6 +8,7 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
@@ -197,10 +198,11 @@ TEST_F(BagPartsTest, CompressedImagesAreDecoded) {
 
 /// compressed_depth_image_transport's header before `png`: kind of quantisation, a and b.
 std::vector<std::uint8_t> withHeader(float a, float b, const std::vector<std::uint8_t>& png) {
-  std::vector<std::uint8_t> data(12);
+  constexpr std::size_t kHeader = 12;
+  std::vector<std::uint8_t> data(kHeader + png.size());
   std::memcpy(data.data() + 4, &a, sizeof(a));
   std::memcpy(data.data() + 8, &b, sizeof(b));
-  data.insert(data.end(), png.begin(), png.end());
+  std::copy(png.begin(), png.end(), data.begin() + kHeader);
   return data;
 }
 
