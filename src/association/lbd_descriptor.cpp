@@ -132,14 +132,15 @@ void bandStatistics(const LbdRowSums& sums, const Weights& weights, float* descr
   for (int h = 0; h < kRows; ++h) {
     const int band = h / kBandRows;
     const int row = h % kBandRows;
+    std::array<float, kSums> value;
     for (int s = 0; s < kSums; ++s) {
-      const float value = weights.global[h] * sums.values[s][h];
-      for (int neighbour = -1; neighbour <= 1; ++neighbour) {
-        const int b = band + neighbour;
-        if (b < 0 || b >= kBands) {
-          continue;  // a band beyond the support does not exist
-        }
-        const float weighted = weights.local[row + kBandRows * (1 - neighbour)] * value;
+      value[s] = weights.global[h] * sums.values[s][h];
+    }
+    // A band beyond the support does not exist.
+    for (int b = std::max(band - 1, 0); b <= std::min(band + 1, kBands - 1); ++b) {
+      const float local = weights.local[row + kBandRows * (1 - (b - band))];
+      for (int s = 0; s < kSums; ++s) {
+        const float weighted = local * value[s];
         total[b][s] += weighted;
         squares[b][s] += weighted * weighted;
       }

@@ -42,7 +42,8 @@ po::options_description RecordingInput::describe() {
       "of a bag, as the following: sensor_msgs/Image or CompressedImage; found by type where there "
       "is one");
   add("depth-topic", po::value(&bag_.depth_topic)->value_name("TOPIC"),
-      "sensor_msgs/Image of encoding 16UC1 or 32FC1");
+      "sensor_msgs/Image of encoding 16UC1 or 32FC1, or CompressedImage of the compressedDepth "
+      "transport");
   add("camera-info-topic", po::value(&bag_.camera_info_topic)->value_name("TOPIC"),
       "without it the one beside the images");
   add("pose-topic", po::value(&bag_.pose_topic)->value_name("TOPIC"),

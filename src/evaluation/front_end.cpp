@@ -1,8 +1,6 @@
 // Frames of a batch are worked on at once; order is restored before anything is given on.
 #include "evolin_ros/evaluation/front_end.h"
 
-#include <chrono>
-
 #include "evolin_ros/base/error.h"
 
 namespace evolin {
@@ -29,10 +27,6 @@ std::string problemOf(const Work& work) {
   } catch (const std::exception& error) {  // plug-ins may throw anything
     return error.what();
   }
-}
-
-double secondsOf(const StageTimes::Clock::duration& time) {
-  return std::chrono::duration<double>(time).count();
 }
 
 }  // namespace
@@ -91,12 +85,12 @@ void FrontEnd::detect(const std::vector<StreamPart>& parts, std::vector<Outcome>
 void FrontEnd::detectIn(const ImagePart& image, std::size_t worker, Outcome* outcome) {
   LineDetector& detector = *detectors_[worker];
   LineSet set;
-  const auto begin = StageTimes::Clock::now();
+  const Stopwatch stopwatch;
   const std::string why =
       problemOf([&] { set.lines = selectLines(detector.detect(image.frame), options_.selection); });
-  set.processing_time = secondsOf(StageTimes::Clock::now() - begin);
-  worker_times_[worker].add(Stage::kDetect, set.processing_time);
-  set.processing_time = detector.processingTime().value_or(set.processing_time);
+  const StageTime time = stopwatch.elapsed();
+  worker_times_[worker].add(Stage::kDetect, time);
+  set.processing_time = detector.processingTime().value_or(time.wall);
   if (!why.empty()) {
     outcome->problem = "no lines for image " + image.frame.name + " at " +
                        formatStamp(image.frame.stamp) + ": " + why;
@@ -217,11 +211,12 @@ void FrontEnd::matchPair(std::size_t worker, Pair* pair) {
   set.stamp = pair->second->frame.stamp;
   set.source = options_.matches_source;
   set.lines_source = options_.associate_ground_truth ? truth_source_ : options_.lines_source;
-  const auto begin = StageTimes::Clock::now();
+  const Stopwatch stopwatch;
   const std::string why =
       problemOf([&] { set.matches = associators_[worker]->match(*pair->first, *pair->second); });
-  set.processing_time = secondsOf(StageTimes::Clock::now() - begin);
-  worker_times_[worker].add(Stage::kMatch, set.processing_time);
+  const StageTime time = stopwatch.elapsed();
+  set.processing_time = time.wall;
+  worker_times_[worker].add(Stage::kMatch, time);
   if (!why.empty()) {
     pair->problem = "no matches for the images at " + formatStamp(set.first_stamp) + " and " +
                     formatStamp(set.stamp) + ": " + why;

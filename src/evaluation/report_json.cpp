@@ -131,8 +131,11 @@ Json stagesJson(const RunTiming& run) {
                  {"wall_s", run.wall},
                  {"recorded_s", run.recorded}};
   Json& seconds = object["seconds"] = Json::object();
-  for (int stage = 0; stage < static_cast<int>(Stage::kCount); ++stage) {
-    seconds[toString(static_cast<Stage>(stage))] = run.stages.of(static_cast<Stage>(stage));
+  Json& processor = object["processor_seconds"] = Json::object();
+  for (int i = 0; i < static_cast<int>(Stage::kCount); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    seconds[toString(stage)] = run.stages.of(stage).wall;
+    processor[toString(stage)] = run.stages.of(stage).processor;
   }
   return object;
 }

@@ -39,17 +39,28 @@ std::string stagesTable(const RunTiming& run) {
     text += ", " + fixedText(run.recorded / run.wall, 1) + " times as fast as they were recorded";
     if (run.threads == 1) {
       text += " (without the detector's own time: " +
-              fixedText(run.recorded / (run.wall - run.stages.of(Stage::kDetect)), 1) + ")";
+              fixedText(run.recorded / (run.wall - run.stages.of(Stage::kDetect).wall), 1) + ")";
     }
   }
-  text += "\n\n| stage | s | ms a frame |\n| --- | ---: | ---: |\n";
+  text +=
+      "\n\n| stage | s | ms a frame | of these on a processor |\n| --- | ---: | ---: | ---: |\n";
+  const auto a_frame = [&run](double seconds) {
+    return milliseconds(seconds / static_cast<double>(run.frames));
+  };
+  StageTime others;
+  const auto add_row = [&](const std::string& name, const StageTime& time) {
+    text += "| " + name + " | " + fixedText(time.wall, 3) + " | " + a_frame(time.wall) + " | " +
+            a_frame(time.processor) + " |\n";
+  };
   for (int i = 0; i < static_cast<int>(Stage::kCount); ++i) {
-    const double seconds = run.stages.of(static_cast<Stage>(i));
-    if (seconds > 0) {
-      text += "| " + toString(static_cast<Stage>(i)) + " | " + fixedText(seconds, 3) + " | " +
-              milliseconds(seconds / static_cast<double>(run.frames)) + " |\n";
+    const auto stage = static_cast<Stage>(i);
+    const StageTime& time = run.stages.of(stage);
+    if (time.wall > 0) {
+      add_row(toString(stage), time);
+      others += stage == Stage::kDetect ? StageTime() : time;
     }
   }
+  add_row("all but detect", others);
   return text;
 }
 

@@ -15,6 +15,7 @@
 
 #include "bag_source.h"
 #include "bag_topic_choice.h"
+#include "compressed_depth.h"
 #include "conversions.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
@@ -161,9 +162,7 @@ class BagParts : public PartReader {
       if (topic == topics_.camera_info) {
         takeCameraInfo(*message.read<sensor_msgs::CameraInfo>());
       } else if (topic == topics_.depth) {
-        const auto depth = message.read<sensor_msgs::Image>();
-        parts_.emplace_back(DepthPart{shell::fromRos(depth->header.stamp),
-                                      shell::toDepthMap(depth, options_.depth_factor)});
+        takeDepth(message);
       } else if (topic == topics_.pose) {
         takePose(message);
       } else if (topic == topics_.ground_truth) {
@@ -207,6 +206,19 @@ class BagParts : public PartReader {
     }
     parts_.emplace_back(std::move(part));
     askTf(header);
+  }
+
+  void takeDepth(const shell::BagMessage& message) {
+    const auto take = [this](const auto& depth, DepthMap map) {
+      parts_.emplace_back(DepthPart{shell::fromRos(depth->header.stamp), std::move(map)});
+    };
+    if (message.isA<sensor_msgs::CompressedImage>()) {
+      const auto depth = message.read<sensor_msgs::CompressedImage>();
+      take(depth, shell::toDepthMap(*depth, options_.depth_factor));
+    } else {
+      const auto depth = message.read<sensor_msgs::Image>();
+      take(depth, shell::toDepthMap(depth, options_.depth_factor));
+    }
   }
 
   void takeAnnotation(const Frame& frame) {

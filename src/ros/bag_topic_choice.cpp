@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compressed_depth.h"
 #include "evolin_ros/base/text.h"
 #include "topics.h"
 
@@ -40,7 +41,7 @@ bool isDepthEncoding(const std::string& encoding) {
 
 enum class Content { kNone, kImage, kDepth };
 
-/// What the first message of a topic says. Depth in compressedDepth's own format is neither.
+/// What the first message of a topic says.
 Content contentOf(BagSource* bag, const BagTopic& topic) {
   Content content = Content::kNone;
   if (topic.type == typeOf<sensor_msgs::Image>()) {
@@ -52,9 +53,7 @@ Content contentOf(BagSource* bag, const BagTopic& topic) {
   } else if (topic.type == typeOf<sensor_msgs::CompressedImage>()) {
     bag->peek(topic.name, [&](const BagMessage& message) {
       const std::string format = message.read<sensor_msgs::CompressedImage>()->format;
-      const bool depth = format.find("compressedDepth") != std::string::npos ||
-                         isDepthEncoding(format.substr(0, format.find(';')));
-      content = depth ? Content::kNone : Content::kImage;
+      content = isCompressedDepth(format) ? Content::kDepth : Content::kImage;
       return false;
     });
   }
@@ -198,7 +197,7 @@ BagTopicChoice chooseTopics(BagSource* bag, const BagPartsOptions& options,
     choice.depth =
         options.depth_topic.empty()
             ? Chooser::only("--depth-topic", "depth images", chooser.withContent(Content::kDepth))
-            : chooser.named("--depth-topic", options.depth_topic, {typeOf<sensor_msgs::Image>()});
+            : chooser.named("--depth-topic", options.depth_topic, images);
     choosePoses(chooser, options, &choice);
   }
   if (wanted.ground_truth && options.ground_truth.empty()) {

@@ -120,6 +120,11 @@ TEST_F(RunTest, TheReportSaysHowItCameAboutAndWhereTheTimeWent) {
     EXPECT_GT(run.at("seconds").at(stage).get<double>(), 0) << stage;
   }
   EXPECT_EQ(run.at("seconds").at("heatmap"), 0);
+  for (const auto& [stage, seconds] : run.at("processor_seconds").items()) {
+    // Both clocks are read one after the other.
+    EXPECT_LE(seconds.get<double>(), run.at("seconds").at(stage).get<double>() + 0.1) << stage;
+  }
+  EXPECT_GT(run.at("processor_seconds").at("detect"), 0);
   EXPECT_LT(sum, run.at("wall_s").get<double>() * run.at("threads").get<int>());
 }
 

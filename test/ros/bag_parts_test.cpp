@@ -8,7 +8,10 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
+#include <cstring>
 #include <opencv2/imgcodecs.hpp>
+#include <vector>
 
 #include "bag_writer.h"
 #include "conversions.h"
@@ -191,6 +194,87 @@ TEST_F(BagPartsTest, CompressedImagesAreDecoded) {
   EXPECT_EQ(parts.images[1].frame.stamp, frames_[1].frame.stamp);
   EXPECT_NE(parts.images[1].problem.find("expected JPEG or PNG"), std::string::npos)
       << parts.images[1].problem;
+}
+
+/// compressed_depth_image_transport's header before `png`: kind of quantisation, a and b.
+std::vector<std::uint8_t> withHeader(float a, float b, const std::vector<std::uint8_t>& png) {
+  constexpr std::size_t kHeader = 12;
+  std::vector<std::uint8_t> data(kHeader + png.size());
+  std::memcpy(data.data() + 4, &a, sizeof(a));
+  std::memcpy(data.data() + 8, &b, sizeof(b));
+  std::copy(png.begin(), png.end(), data.begin() + kHeader);
+  return data;
+}
+
+TEST_F(BagPartsTest, CompressedDepthIsRead) {
+  cv::Mat stored(480, 640, CV_16UC1, cv::Scalar(0));
+  stored.at<std::uint16_t>(20, 10) = 1500;
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", stored, png);
+  // With a = 250 and b = 1000, 1500 stands for 0.5 m.
+  const struct {
+    const char* format;
+    std::vector<std::uint8_t> data;
+    double metres;
+  } kinds[] = {
+      {"16UC1; compressedDepth", withHeader(0, 0, png), 1.5},
+      {"16UC1; compressedDepth png", withHeader(0, 0, png), 1.5},
+      {"32FC1; compressedDepth png", withHeader(250, 1000, png), 0.5},
+      {"16UC1; png compressed ", png, 1.5},
+  };
+  BagPartsOptions options;
+  options.depth_factor = 1000;
+  for (const auto& kind : kinds) {
+    rosbag::Bag bag(path("depth.bag").string(), rosbag::bagmode::Write);
+    sensor_msgs::CompressedImage message;
+    message.header = headerOf(0);
+    message.format = kind.format;
+    message.data = kind.data;
+    bag.write("/camera/image", message.header.stamp, *imageOf(0, "bgr8"));
+    bag.write("/camera/depth/image_raw/compressedDepth", message.header.stamp, message);
+    bag.close();
+    const Parts parts = readAll({path("depth.bag")}, options);
+    ASSERT_EQ(parts.depths.size(), 1U) << kind.format;
+    EXPECT_EQ(parts.depths[0].stamp, frames_[0].frame.stamp);
+    EXPECT_EQ(parts.depths[0].depth.size().width, 640) << kind.format;
+    EXPECT_FLOAT_EQ(static_cast<float>(parts.depths[0].depth.at(10, 20)),
+                    static_cast<float>(kind.metres))
+        << kind.format;
+    EXPECT_FALSE(DepthMap::isDepth(parts.depths[0].depth.at(11, 20))) << kind.format;
+  }
+}
+
+TEST_F(BagPartsTest, CompressedDepthThatCannotBeReadIsNamed) {
+  std::vector<std::uint8_t> grey;
+  cv::imencode(".png", cv::Mat(4, 4, CV_8UC1, cv::Scalar(9)), grey);
+  std::vector<std::uint8_t> depth;
+  cv::imencode(".png", cv::Mat(4, 4, CV_16UC1, cv::Scalar(9)), depth);
+  const struct {
+    const char* format;
+    std::vector<std::uint8_t> data;
+    const char* problem;
+  } kinds[] = {
+      {"16UC1; compressedDepth", std::vector<std::uint8_t>(12), "header of 12 bytes"},
+      {"16UC1; compressedDepth rvl", std::vector<std::uint8_t>(40), "expected PNG"},
+      {"16UC1; compressedDepth png", withHeader(0, 0, grey), "16 bits"},
+      {"32FC1; compressedDepth png", withHeader(0, 0, depth), "expected a finite b"},
+  };
+  for (const auto& kind : kinds) {
+    rosbag::Bag bag(path("depth.bag").string(), rosbag::bagmode::Write);
+    sensor_msgs::CompressedImage message;
+    message.header = headerOf(0);
+    message.format = kind.format;
+    message.data = kind.data;
+    bag.write("/camera/image", message.header.stamp, *imageOf(0, "bgr8"));
+    bag.write("/depth/compressedDepth", message.header.stamp, message);
+    bag.close();
+    const Parts parts = readAll({path("depth.bag")});
+    EXPECT_TRUE(parts.depths.empty()) << kind.format;
+    ASSERT_EQ(parts.notes.size(), 1U) << kind.format;
+    for (const char* words : {"/depth/compressedDepth", kind.format, kind.problem}) {
+      EXPECT_NE(parts.notes[0].find(words), std::string::npos) << parts.notes[0];
+    }
+  }
 }
 
 /// As the benchmark's own bags: frames with a leading slash, poses in tf, rgb8 and 32FC1.

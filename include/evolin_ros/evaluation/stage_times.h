@@ -26,16 +26,39 @@ enum class Stage {
 /// "decode", "detect", ...
 std::string toString(Stage stage);
 
-/// Seconds by stage, summed over threads.
+/// Seconds on the clock on the wall, and of the calling thread on a processor: the two differ where
+/// the thread waits, or shares the processor with others.
+struct StageTime {
+  double wall = 0;
+  double processor = 0;
+
+  StageTime& operator+=(const StageTime& other) {
+    wall += other.wall;
+    processor += other.processor;
+    return *this;
+  }
+};
+
+/// Measures from its construction; to be read on the same thread.
+class Stopwatch {
+ public:
+  Stopwatch();
+
+  StageTime elapsed() const;
+
+ private:
+  std::chrono::steady_clock::time_point wall_;
+  double processor_;
+};
+
+/// Times by stage, summed over threads.
 class StageTimes {
  public:
-  using Clock = std::chrono::steady_clock;
-
-  double of(Stage stage) const { return seconds_[static_cast<std::size_t>(stage)]; }
-  void add(Stage stage, double seconds) { seconds_[static_cast<std::size_t>(stage)] += seconds; }
+  const StageTime& of(Stage stage) const { return times_[static_cast<std::size_t>(stage)]; }
+  void add(Stage stage, const StageTime& time) { times_[static_cast<std::size_t>(stage)] += time; }
   void add(const StageTimes& other) {
-    for (std::size_t i = 0; i < seconds_.size(); ++i) {
-      seconds_[i] += other.seconds_[i];
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      times_[i] += other.times_[i];
     }
   }
 
@@ -50,17 +73,17 @@ class StageTimes {
   class Timer {
    public:
     Timer(StageTimes* times, Stage stage) : times_(times), stage_(stage) {}
-    ~Timer() { times_->add(stage_, std::chrono::duration<double>(Clock::now() - begin_).count()); }
+    ~Timer() { times_->add(stage_, stopwatch_.elapsed()); }
     Timer(const Timer&) = delete;
     Timer& operator=(const Timer&) = delete;
 
    private:
     StageTimes* times_;
     Stage stage_;
-    Clock::time_point begin_ = Clock::now();
+    Stopwatch stopwatch_;
   };
 
-  std::array<double, static_cast<std::size_t>(Stage::kCount)> seconds_ = {};
+  std::array<StageTime, static_cast<std::size_t>(Stage::kCount)> times_;
 };
 
 /// Of one run over a recording.
