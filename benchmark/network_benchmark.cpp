@@ -71,21 +71,33 @@ void decode(benchmark::State& state, const std::string& maps_folder, const Optio
   }
 }
 
-BENCHMARK_CAPTURE(detect<Mlsd>, tiny_512, "{}")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(detect<Mlsd>, tiny_320, "{model: mlsd_tiny_320.onnx}")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(detect<Mlsd>, large_512, "{model: mlsd_large_512.onnx}")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(detect<LsdNet>, mended, "{}")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE((decode<mlsd::Decoder, mlsd::DecodingOptions>), mlsd, "mlsd_tiny_512/tpmap",
-                  mlsd::DecodingOptions())
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE((decode<lsdnet::Decoder, lsdnet::DecodingOptions>), lsdnet, "lsdnet/net",
-                  lsdnet::DecodingOptions())
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE((decode<lsdnet::Decoder, lsdnet::DecodingOptions>), lsdnet_single_pass,
-                  "lsdnet/net", (lsdnet::DecodingOptions{false, true}))
-    ->Unit(benchmark::kMillisecond);
+void mlsdTiny512(benchmark::State& state) { detect<Mlsd>(state, "{}"); }
+
+void mlsdTiny320(benchmark::State& state) { detect<Mlsd>(state, "{model: mlsd_tiny_320.onnx}"); }
+
+void mlsdLarge512(benchmark::State& state) { detect<Mlsd>(state, "{model: mlsd_large_512.onnx}"); }
+
+void lsdNet(benchmark::State& state) { detect<LsdNet>(state, "{}"); }
+
+void mlsdDecoding(benchmark::State& state) {
+  decode<mlsd::Decoder>(state, "mlsd_tiny_512/tpmap", mlsd::DecodingOptions());
+}
+
+void lsdNetDecoding(benchmark::State& state) {
+  decode<lsdnet::Decoder>(state, "lsdnet/net", lsdnet::DecodingOptions());
+}
+
+void lsdNetSinglePassDecoding(benchmark::State& state) {
+  decode<lsdnet::Decoder>(state, "lsdnet/net", lsdnet::DecodingOptions{false, true});
+}
+
+BENCHMARK(mlsdDecoding)->Unit(benchmark::kMillisecond);
+BENCHMARK(lsdNetDecoding)->Unit(benchmark::kMillisecond);
+BENCHMARK(lsdNetSinglePassDecoding)->Unit(benchmark::kMillisecond);
+BENCHMARK(mlsdTiny512)->Unit(benchmark::kMillisecond);
+BENCHMARK(mlsdTiny320)->Unit(benchmark::kMillisecond);
+BENCHMARK(mlsdLarge512)->Unit(benchmark::kMillisecond);
+BENCHMARK(lsdNet)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace evolin
