@@ -7,11 +7,13 @@
 #include <string>
 #include <tuple>
 
+#include "evolin_ros/detection/cannylines.h"
 #include "evolin_ros/detection/edlines.h"
 #include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/fld.h"
 #include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/kht.h"
 #include "evolin_ros/detection/lsd.h"
 #include "evolin_ros/detection/lswms.h"
 #include "evolin_ros/detection/opencv_edlines.h"
@@ -46,6 +48,17 @@ auto values(const HoughPParameters& p) {
 
 auto selectionValues(const DetectorSelection& s) {
   return std::make_tuple(s.score_threshold, s.min_length, s.max_lines, s.mask);
+}
+
+auto values(const CannyLinesParameters& p) {
+  return std::tuple_cat(std::make_tuple(p.sigma, p.meaningful_gradient, p.fit_error, p.validate),
+                        selectionValues(p.selection));
+}
+
+auto values(const KhtParameters& p) {
+  return std::tuple_cat(std::make_tuple(p.canny_threshold1, p.canny_threshold2, p.min_cluster,
+                                        p.min_deviation, p.delta, p.min_height, p.sigmas),
+                        selectionValues(p.selection));
 }
 
 auto values(const EdLinesParameters& p) {
@@ -125,6 +138,12 @@ TEST(ShippedDetectorConfig, LsdHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvLsd>("opencv_lsd");
 }
 
+TEST(ShippedDetectorConfig, CannyLinesHoldsAllDefaults) {
+  expectHoldsAllDefaults<CannyLines>("cannylines");
+}
+
+TEST(ShippedDetectorConfig, KhtHoldsAllDefaults) { expectHoldsAllDefaults<Kht>("kht"); }
+
 TEST(ShippedDetectorConfig, OwnEdLinesHoldsAllDefaults) {
   expectHoldsAllDefaults<EdLines>("edlines");
 }
@@ -144,10 +163,10 @@ TEST(ShippedDetectorConfig, ElsedHoldsAllDefaults) { expectHoldsAllDefaults<Else
 TEST(ShippedDetectorConfig, HoughPHoldsAllDefaults) { expectHoldsAllDefaults<HoughP>("hough_p"); }
 
 TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
-  const std::set<std::string> tested = {"edlines.yaml",    "elsed.yaml",          "fld.yaml",
-                                        "fsg.yaml",        "lswms.yaml",          "lsd.yaml",
-                                        "opencv_lsd.yaml", "opencv_edlines.yaml", "opencv_fld.yaml",
-                                        "hough_p.yaml"};
+  const std::set<std::string> tested = {"cannylines.yaml",     "kht.yaml",        "edlines.yaml",
+                                        "elsed.yaml",          "fld.yaml",        "fsg.yaml",
+                                        "lswms.yaml",          "lsd.yaml",        "opencv_lsd.yaml",
+                                        "opencv_edlines.yaml", "opencv_fld.yaml", "hough_p.yaml"};
   for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
     EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
   }
