@@ -2,11 +2,13 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmark/frames.h"
+#include "evolin_ros/detection/cannylines.h"
 #include "evolin_ros/detection/edlines.h"
 #include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/fld.h"
 #include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/kht.h"
 #include "evolin_ros/detection/lsd.h"
 #include "evolin_ros/detection/lswms.h"
 #include "evolin_ros/detection/opencv_edlines.h"
@@ -50,9 +52,11 @@ void detectAsNew(benchmark::State& state) {
 
 BENCHMARK_TEMPLATE(detect, Elsed)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detectAsNew, Elsed)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, CannyLines)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, EdLines)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, Fld)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, Fsg)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(detect, Kht)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, Lsd)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, Lswms)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(detect, OpenCvLsd)->Unit(benchmark::kMillisecond);

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/detection/cannylines.h"
 #include "evolin_ros/detection/edlines.h"
 #include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/fld.h"
 #include "evolin_ros/detection/fsg.h"
+#include "evolin_ros/detection/kht.h"
 #include "evolin_ros/detection/lsd.h"
 #include "evolin_ros/detection/lswms.h"
 
@@ -18,11 +20,15 @@ namespace {
 template <typename Detector>
 constexpr std::size_t kMostAllocations = 20;
 template <>
-constexpr std::size_t kMostAllocations<EdLines> = 1;
+constexpr std::size_t kMostAllocations<CannyLines> = 4;
+template <>
+constexpr std::size_t kMostAllocations<EdLines> = 2;
 template <>
 constexpr std::size_t kMostAllocations<Elsed> = 1;
 template <>
 constexpr std::size_t kMostAllocations<Fld> = 1;
+template <>
+constexpr std::size_t kMostAllocations<Kht> = 1;
 template <>
 constexpr std::size_t kMostAllocations<Lswms> = 1;
 
@@ -34,7 +40,7 @@ class OwnDetector : public ::testing::Test {
   Detector detector_;
 };
 
-using Detectors = ::testing::Types<EdLines, Elsed, Fld, Fsg, Lsd, Lswms>;
+using Detectors = ::testing::Types<CannyLines, EdLines, Elsed, Fld, Fsg, Kht, Lsd, Lswms>;
 TYPED_TEST_SUITE(OwnDetector, Detectors, );
 
 TYPED_TEST(OwnDetector, FindsTheSidesOfAQuadrilateral) {

@@ -8,11 +8,13 @@
 #include <tuple>
 
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/detection/cannylines.h"
 #include "evolin_ros/detection/edlines.h"
 #include "evolin_ros/detection/elsed.h"
 #include "evolin_ros/detection/fld.h"
 #include "evolin_ros/detection/fsg.h"
 #include "evolin_ros/detection/hough_p.h"
+#include "evolin_ros/detection/kht.h"
 #include "evolin_ros/detection/lsd.h"
 #include "evolin_ros/detection/lsdnet.h"
 #include "evolin_ros/detection/lswms.h"
@@ -49,6 +51,17 @@ auto values(const HoughPParameters& p) {
 
 auto selectionValues(const DetectorSelection& s) {
   return std::make_tuple(s.score_threshold, s.min_length, s.max_lines, s.mask);
+}
+
+auto values(const CannyLinesParameters& p) {
+  return std::tuple_cat(std::make_tuple(p.sigma, p.meaningful_gradient, p.fit_error, p.validate),
+                        selectionValues(p.selection));
+}
+
+auto values(const KhtParameters& p) {
+  return std::tuple_cat(std::make_tuple(p.canny_threshold1, p.canny_threshold2, p.min_cluster,
+                                        p.min_deviation, p.delta, p.min_height, p.sigmas),
+                        selectionValues(p.selection));
 }
 
 auto values(const EdLinesParameters& p) {
@@ -144,6 +157,12 @@ TEST(ShippedDetectorConfig, LsdHoldsAllDefaults) {
   expectHoldsAllDefaults<OpenCvLsd>("opencv_lsd");
 }
 
+TEST(ShippedDetectorConfig, CannyLinesHoldsAllDefaults) {
+  expectHoldsAllDefaults<CannyLines>("cannylines");
+}
+
+TEST(ShippedDetectorConfig, KhtHoldsAllDefaults) { expectHoldsAllDefaults<Kht>("kht"); }
+
 TEST(ShippedDetectorConfig, OwnEdLinesHoldsAllDefaults) {
   expectHoldsAllDefaults<EdLines>("edlines");
 }
@@ -189,11 +208,11 @@ TEST(ShippedDetectorConfig, LsdNetHoldsAllDefaults) {
 }
 
 TEST(ShippedDetectorConfig, HasNoFileWithoutATest) {
-  const std::set<std::string> tested = {
-      "edlines.yaml",    "elsed.yaml",          "fld.yaml",
-      "fsg.yaml",        "hough_p.yaml",        "lsd.yaml",
-      "lsdnet.yaml",     "lswms.yaml",          "mlsd.yaml",
-      "opencv_lsd.yaml", "opencv_edlines.yaml", "opencv_fld.yaml"};
+  const std::set<std::string> tested = {"cannylines.yaml", "edlines.yaml",   "elsed.yaml",
+                                        "fld.yaml",        "fsg.yaml",       "hough_p.yaml",
+                                        "kht.yaml",        "lsd.yaml",       "lsdnet.yaml",
+                                        "lswms.yaml",      "mlsd.yaml",      "opencv_edlines.yaml",
+                                        "opencv_fld.yaml", "opencv_lsd.yaml"};
   for (const auto& entry : std::filesystem::directory_iterator(configFolder())) {
     EXPECT_EQ(tested.count(entry.path().filename().string()), 1U) << entry.path();
   }

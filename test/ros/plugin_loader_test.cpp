@@ -34,8 +34,9 @@ TEST(PluginLoader, ListsOwnPluginsByName) {
   const std::vector<PluginInfo> detectors = loader.listDetectors();
   const std::vector<std::string> names = namesOf(detectors);
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
-  for (const char* expected : {"edlines", "elsed", "fld", "fsg", "hough_p", "lsd", "lsdnet",
-                               "lswms", "mlsd", "opencv_edlines", "opencv_fld", "opencv_lsd"}) {
+  for (const char* expected :
+       {"cannylines", "edlines", "elsed", "fld", "fsg", "hough_p", "kht", "lsd", "lsdnet", "lswms",
+        "mlsd", "opencv_edlines", "opencv_fld", "opencv_lsd"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), expected), 1) << expected;
   }
   const std::vector<PluginInfo> associators = loader.listAssociators();

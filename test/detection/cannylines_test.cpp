@@ -1,0 +1,80 @@
+// cannylines against hand-made images and the golden figures.
+#include "evolin_ros/detection/cannylines.h"
+
+#include <gtest/gtest.h>
+
+#include "test/detection/own_detectors.h"
+#include "test/support/expect_error.h"
+
+namespace evolin {
+namespace {
+
+class CannyLinesTest : public ::testing::Test {
+ protected:
+  void SetUp() override { detector_.configure(YAML::Node()); }
+
+  CannyLines detector_;
+};
+
+TEST_F(CannyLinesTest, NamesWhatIsWrongWithAParameter) {
+  CannyLines fresh;
+  test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{sigmas: 1}")); },
+                                 {"detector cannylines", "sigmas", "sigma"});
+  test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{fit_error: 0}")); },
+                                 {"fit_error", "0.01", "10"});
+}
+
+TEST_F(CannyLinesTest, FindsBothSidesOfABar) {
+  Frame frame;
+  frame.image = cv::Mat(100, 120, CV_8UC1, cv::Scalar(30));
+  frame.image.colRange(50, 70).setTo(220);
+  const LineSegments lines = detector_.detect(frame);
+  ASSERT_EQ(lines.size(), 2U);
+  for (const LineSegment& line : lines) {
+    EXPECT_NEAR(line.x1, line.x2, 1e-6);
+    EXPECT_GT(line.length(), 90);
+    EXPECT_NEAR(std::abs(line.x1 - 59.5), 10, 0.51);
+  }
+}
+
+TEST_F(CannyLinesTest, ValidationDropsWhatNoiseHas) {
+  Frame frame;
+  frame.image = test::noise(240, 320, CV_8UC1);
+  CannyLines without;
+  without.configure(YAML::Load("{validate: false}"));
+  const std::size_t all = without.detect(frame).size();
+  EXPECT_GT(all, 10U);
+  EXPECT_LT(detector_.detect(frame).size(), all / 10);
+}
+
+TEST_F(CannyLinesTest, ExtremeParametersWork) {
+  for (const char* parameters :
+       {"{sigma: 0.1}", "{sigma: 10}", "{meaningful_gradient: 1, validate: false}",
+        "{meaningful_gradient: 2040}", "{fit_error: 0.01}", "{fit_error: 10, validate: false}"}) {
+    SCOPED_TRACE(parameters);
+    CannyLines detector;
+    detector.configure(YAML::Load(parameters));
+    test::expectSurvivesAwkwardImages(&detector);
+    for (const auto& [name, image] : test::adversarialImages()) {
+      Frame frame;
+      frame.image = image;
+      const LineSegments lines = detector.detect(frame);
+      test::expectSound(lines, detector, name);
+      test::expectLinesInImage(lines, image.size(), name);
+    }
+  }
+}
+
+// The published lines depend on the order of equally strong seeds and on sums in single precision,
+// which we do not share (docs/METHODS.md).
+TEST_F(CannyLinesTest, IsNearTheGoldenLines) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  const test::GoldenAgreement agreement =
+      test::compareWithGolden(&detector_, "cannylines_cpp_sigma1", -1);
+  EXPECT_GE(agreement.nearShare(), 0.85);
+  EXPECT_NEAR(agreement.countRatio(), 1, 0.03);
+  RecordProperty("near_share", std::to_string(agreement.nearShare()));
+}
+
+}  // namespace
+}  // namespace evolin
