@@ -5,6 +5,7 @@
 #include "detect_command.h"
 #include "evaluate_command.h"
 #include "list_command.h"
+#include "render_command.h"
 #include "report_command.h"
 #include "run_command.h"
 #include "synth_command.h"
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
       evolin::cli::detectCommand(),
       evolin::cli::evaluateCommand(),
       evolin::cli::listCommand(),
+      evolin::cli::renderCommand(),
       evolin::cli::reportCommand(),
       evolin::cli::runCommand(),
       evolin::cli::synthCommand(),
