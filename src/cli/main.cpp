@@ -11,6 +11,7 @@
 #include "evaluate_command.h"
 #include "list_command.h"
 #include "models_command.h"
+#include "render_command.h"
 #include "report_command.h"
 #include "run_command.h"
 #include "synth_command.h"
@@ -33,10 +34,10 @@ void keepFreedMemory() {
 int main(int argc, char** argv) {
   keepFreedMemory();
   const std::vector<evolin::cli::Command> commands = {
-      evolin::cli::associateCommand(), evolin::cli::bagCommand(),  evolin::cli::detectCommand(),
-      evolin::cli::evaluateCommand(),  evolin::cli::listCommand(), evolin::cli::modelsCommand(),
-      evolin::cli::reportCommand(),    evolin::cli::runCommand(),  evolin::cli::synthCommand(),
-      evolin::cli::validateCommand(),
+      evolin::cli::associateCommand(), evolin::cli::bagCommand(),      evolin::cli::detectCommand(),
+      evolin::cli::evaluateCommand(),  evolin::cli::listCommand(),     evolin::cli::modelsCommand(),
+      evolin::cli::renderCommand(),    evolin::cli::reportCommand(),   evolin::cli::runCommand(),
+      evolin::cli::synthCommand(),     evolin::cli::validateCommand(),
   };
   return evolin::cli::runProgram(commands, {argv + 1, argv + argc});
 }
