@@ -145,8 +145,7 @@ class Planner {
     }
     planned->unavailable = plugin.unavailable;
     if (!recorded.empty()) {
-      planned->unavailable += (method.plugin.empty() ? "" : "; ") + std::string("recorded: ") +
-                              recorded + " is not there";
+      planned->unavailable += "; recorded: " + recorded + " is not there";
     }
     return nullptr;
   }
@@ -170,15 +169,15 @@ class Planner {
 
   const Method& detector(std::size_t place) {
     return known(matrix_.detectors[place], &detectors_, [this](const BenchmarkMethod& method) {
-      return std::make_pair(loader_->loadDetector(method.plugin),
-                            loader_->detectorLibrary(method.plugin));
+      const auto plugin = loader_->loadDetector(method.plugin);
+      return std::make_pair(plugin, loader_->detectorLibrary(method.plugin));
     });
   }
 
   const Method& associator(std::size_t place) {
     return known(matrix_.associators[place], &associators_, [this](const BenchmarkMethod& method) {
-      return std::make_pair(loader_->loadAssociator(method.plugin),
-                            loader_->associatorLibrary(method.plugin));
+      const auto plugin = loader_->loadAssociator(method.plugin);
+      return std::make_pair(plugin, loader_->associatorLibrary(method.plugin));
     });
   }
 
