@@ -6,6 +6,7 @@
 
 #include "associate_command.h"
 #include "bag_command.h"
+#include "benchmark_command.h"
 #include "command.h"
 #include "detect_command.h"
 #include "evaluate_command.h"
@@ -34,9 +35,11 @@ void keepFreedMemory() {
 int main(int argc, char** argv) {
   keepFreedMemory();
   const std::vector<evolin::cli::Command> commands = {
-      evolin::cli::associateCommand(), evolin::cli::bagCommand(),      evolin::cli::detectCommand(),
-      evolin::cli::evaluateCommand(),  evolin::cli::listCommand(),     evolin::cli::modelsCommand(),
-      evolin::cli::renderCommand(),    evolin::cli::reportCommand(),   evolin::cli::runCommand(),
+      evolin::cli::associateCommand(), evolin::cli::bagCommand(),
+      evolin::cli::benchmarkCommand(), evolin::cli::detectCommand(),
+      evolin::cli::evaluateCommand(),  evolin::cli::listCommand(),
+      evolin::cli::modelsCommand(),    evolin::cli::renderCommand(),
+      evolin::cli::reportCommand(),    evolin::cli::runCommand(),
       evolin::cli::synthCommand(),     evolin::cli::validateCommand(),
   };
   return evolin::cli::runProgram(commands, {argv + 1, argv + argc});

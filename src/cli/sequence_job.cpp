@@ -21,6 +21,17 @@ WantedParts wantedParts(const MetricFamilies& families) {
           true};
 }
 
+/// The plug-in that plays the results in `folder`; "": `method` itself.
+MethodChoice playing(const MethodChoice& method, const std::string& folder) {
+  if (folder.empty()) {
+    return method;
+  }
+  MethodChoice player;
+  player.name = "recorded";
+  player.parameters["folder"] = folder;
+  return player;
+}
+
 }  // namespace
 
 EvaluationSettings readEvaluation(const YAML::Node& evaluation, const std::string& owner) {
@@ -46,12 +57,7 @@ void SequenceJob::chooseDetector(PluginLoader* loader, Needs* needs) {
   }
   const MethodChoice& detector = *request_.detector;
   FrontEndOptions& front_end = options_.front_end;
-  MethodChoice used = detector;
-  if (!request_.lines_folder.empty()) {
-    used.name = "recorded";
-    used.parameters = YAML::Node(YAML::NodeType::Map);
-    used.parameters["folder"] = request_.lines_folder;
-  }
+  const MethodChoice used = playing(detector, request_.lines_folder);
   front_end.make_detector = detectorMaker(loader, used);
   front_end.selection = request_.selection;
   front_end.lines_source =
@@ -66,7 +72,8 @@ void SequenceJob::chooseAssociator(PluginLoader* loader, Needs* needs) {
   }
   const MethodChoice& associator = *request_.associator;
   FrontEndOptions& front_end = options_.front_end;
-  front_end.make_associator = associatorMaker(loader, associator);
+  const MethodChoice used = playing(associator, request_.matches_folder);
+  front_end.make_associator = associatorMaker(loader, used);
   front_end.matches_source = methodSource(associator.name, associator.parameters);
   front_end.associate_ground_truth = request_.associate_ground_truth;
   front_end.frame_step = options_.evaluation.pass.frame_step;

@@ -24,11 +24,12 @@ struct RunRequest {
   std::string lines_name;    ///< of the lines in the report; "": the detector's own name
   std::string lines_folder;  ///< the detector's lines, recorded; "": it detects them itself
   LineSelection selection;
-  std::optional<MethodChoice> associator;                   ///< none: nothing is associated
+  std::optional<MethodChoice> associator;  ///< none: nothing is associated
+  std::string matches_folder;  ///< the associator's matches, recorded; "": it finds them itself
   bool associate_ground_truth = true;                       ///< else the detected lines
   YAML::Node evaluation = YAML::Node(YAML::NodeType::Map);  ///< keys of readEvaluationSettings()
   int threads = 1;
-  int worst_frames = 0;            ///< pictures of so many frames with the lowest F-score
+  int worst_frames = 6;            ///< pictures of so many frames with the lowest F-score
   std::string hashes;              ///< of the input, JSON
   std::vector<std::string> notes;  ///< for the report, before the run's own
 };

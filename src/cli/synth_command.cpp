@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/program_options/value_semantic.hpp>
 #include <iostream>
-#include <numeric>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -12,15 +11,11 @@
 #include "bag_writer.h"
 #include "evolin_ros/base/atomic_file.h"
 #include "evolin_ros/base/text.h"
-#include "evolin_ros/base/version.h"
-#include "evolin_ros/dataset/evolin_writer.h"
 #include "evolin_ros/dataset/stamps_file.h"
 #include "evolin_ros/dataset/synthetic/synthetic_sequence.h"
-#include "interrupt.h"
 #include "options.h"
 #include "output_folder.h"
-#include "parallel.h"
-#include "progress.h"
+#include "synthetic_folder.h"
 
 namespace evolin::cli {
 
@@ -37,7 +32,6 @@ constexpr const char* kUsage =
     "A folder has the EVOLIN layout and serves wherever a dataset is asked for; a bag has the "
     "topics of 'evolin bag', and NAME.stamps.txt beside it.";
 
-constexpr const char* kMarker = "synth.txt";
 constexpr int kMostThreads = 1024;
 
 struct SynthOptions {
@@ -115,76 +109,13 @@ int workersOf(const SynthOptions& options) {
                              : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-/// Runs make(number) on all workers for a batch of frames at a time, then take(number) in order.
-template <typename Make, typename Take>
-void forEachFrame(std::size_t frames, int workers, const Make& make, const Take& take) {
-  const InterruptGuard guard;
-  Progress progress("frames", frames);
-  const std::size_t batch = 2 * static_cast<std::size_t>(workers);
-  for (std::size_t begin = 0; begin < frames; begin += batch) {
-    const std::size_t count = std::min(batch, frames - begin);
-    // It watches for signals itself and forgets older ones.
-    if (guard.interrupted()) {
-      throw Interrupted("interrupted; nothing was written");
-    }
-    forEachTask(count, workers,
-                [&](std::size_t task, std::size_t /*worker*/) { make(begin + task); });
-    for (std::size_t i = 0; i < count; ++i) {
-      take(begin + i);
-    }
-    progress.update(begin + count);
-  }
-  if (guard.interrupted()) {
-    throw Interrupted("interrupted; nothing was written");
-  }
-  progress.finish(frames);
-}
-
-/// What a reader of the folder wants to know; its presence lets --force replace the folder.
-std::string describeSequence(const synthetic::SyntheticOptions& options) {
-  return programVersion() + " synth\nframes " + std::to_string(options.frames) + "\nrate " +
-         formatDouble(options.rate) + " Hz\nsize " + std::to_string(options.width) + "x" +
-         std::to_string(options.height) + " px\nseed " + std::to_string(options.seed) + "\nnoise " +
-         formatDouble(options.noise) + " grey levels\nblur " + formatDouble(options.blur) + " px\n";
-}
-
-std::string describeEdges(const synthetic::Scene& scene) {
-  std::string text =
-      "# physical edges: number x1 y1 z1 x2 y2 z2 (metres, world); the edge of an id of gt_ids/ is "
-      "the id modulo " +
-      std::to_string(scene.edges.size()) + "\n";
-  for (std::size_t number = 0; number < scene.edges.size(); ++number) {
-    const synthetic::Edge& edge = scene.edges[number];
-    text += std::to_string(number);
-    for (const synthetic::Vector3* end : {&edge.from, &edge.to}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        text += " " + formatDouble((*end)[axis]);
-      }
-    }
-    text += "\n";
-  }
-  return text;
-}
-
 /// Number of lines in all frames.
 std::size_t writeFolder(const SynthOptions& options) {
-  OutputFolder folder(options.output, kMarker, options.force);
-  const synthetic::SyntheticSequence sequence(options.sequence);
-  EvolinWriter writer(folder.path());
-  std::vector<std::size_t> lines(sequence.size());
-  forEachFrame(
-      sequence.size(), workersOf(options),
-      [&](std::size_t number) {
-        const SequenceFrame frame = sequence.frame(number);
-        lines[number] = frame.ground_truth->size();
-        writer.addFrame(number, frame);
-      },
-      [](std::size_t /*number*/) {});
-  writer.finish();
-  writeFileAtomically(folder.path() / "edges.txt", describeEdges(sequence.scene()));
-  writeFileAtomically(folder.path() / kMarker, describeSequence(options.sequence));
+  OutputFolder folder(options.output, kSynthMarker, options.force);
+  const std::size_t lines =
+      fillSyntheticFolder(options.sequence, workersOf(options), false, folder.path());
   folder.commit();
-  return std::accumulate(lines.begin(), lines.end(), std::size_t{0});
+  return lines;
 }
 
 std::size_t writeBag(const SynthOptions& options) {
@@ -202,7 +133,7 @@ std::size_t writeBag(const SynthOptions& options) {
   std::vector<StampedFile> entries;
   std::size_t lines = 0;
   forEachFrame(
-      sequence.size(), workersOf(options),
+      sequence.size(), workersOf(options), false,
       [&](std::size_t number) { ready[number] = sequence.frame(number); },
       [&](std::size_t number) {
         const SequenceFrame& frame = *ready[number];

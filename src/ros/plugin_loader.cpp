@@ -52,6 +52,16 @@ std::shared_ptr<Base> load(const std::string& kind, const std::string& name,
 }
 
 template <class Base>
+std::filesystem::path libraryOf(const std::string& kind, const std::string& name,
+                                pluginlib::ClassLoader<Base>* loader) {
+  try {
+    return loader->getClassLibraryPath(name);
+  } catch (const pluginlib::PluginlibException& error) {
+    throw Error(kind + " '" + name + "' has no library: " + error.what());
+  }
+}
+
+template <class Base>
 std::vector<PluginInfo> list(const std::string& kind, pluginlib::ClassLoader<Base>* loader,
                              const std::shared_ptr<const void>& keep_alive) {
   std::vector<std::string> names = loader->getDeclaredClasses();
@@ -87,6 +97,14 @@ std::shared_ptr<LineDetector> PluginLoader::loadDetector(const std::string& name
 
 std::shared_ptr<LineAssociator> PluginLoader::loadAssociator(const std::string& name) {
   return load("associator", name, &loaders_->associators, loaders_);
+}
+
+std::filesystem::path PluginLoader::detectorLibrary(const std::string& name) {
+  return libraryOf("detector", name, &loaders_->detectors);
+}
+
+std::filesystem::path PluginLoader::associatorLibrary(const std::string& name) {
+  return libraryOf("associator", name, &loaders_->associators);
 }
 
 std::vector<PluginInfo> PluginLoader::listDetectors() {

@@ -2,6 +2,7 @@
 // program uses it too.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +33,10 @@ class PluginLoader {
   /// library that does not load.
   std::shared_ptr<LineDetector> loadDetector(const std::string& name);
   std::shared_ptr<LineAssociator> loadAssociator(const std::string& name);
+
+  /// The file of the library that holds the plug-in; throws as above.
+  std::filesystem::path detectorLibrary(const std::string& name);
+  std::filesystem::path associatorLibrary(const std::string& name);
 
   /// Sorted by name. A plug-in whose library does not load is listed with that as its reason.
   std::vector<PluginInfo> listDetectors();
