@@ -107,6 +107,9 @@ void Splitter::findCuts() {
   for (double point = low; point <= high && points < density.size(); point += step) {
     double value = 0;
     for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] == 0) {
+        continue;
+      }
       const double z = point - (low + static_cast<double>(i) * bin + bin / 2);
       value += counts[i] * std::exp(-z * z / 2) / std::sqrt(2 * kPi);
     }
