@@ -150,10 +150,10 @@ void ParameterReader::read(const std::string& key, double* value, double low, do
 }
 
 void ParameterReader::read(const std::string& key, std::vector<double>* values, double low,
-                           double high) {
+                           double high, EmptyList empty) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) return;
-  if (!node.IsSequence() || node.size() == 0) {
+  if (!node.IsSequence() || (node.size() == 0 && empty == EmptyList::kRefused)) {
     throw ConfigError(owner_, key, "expected a list of numbers, got " + shown(node));
   }
   values->clear();

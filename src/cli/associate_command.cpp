@@ -3,11 +3,8 @@
 
 #include <boost/program_options/value_semantic.hpp>
 
-#include <iostream>
 #include <opencv2/core/utility.hpp>
 
-#include "evolin_ros/base/atomic_file.h"
-#include "evolin_ros/base/version.h"
 #include "evolin_ros/evaluation/method_source.h"
 #include "method_choice.h"
 #include "options.h"
@@ -116,19 +113,10 @@ int runAssociate(const std::vector<std::string>& arguments) {
                               front_end_options.matches_source + " in " +
                               std::to_string(recorder.pairs()) + " pairs of " +
                               std::to_string(recorder.images()) + " images";
-  writeFileAtomically(folder.path() / kMarker,
-                      programVersion() + " associate\ninput " + options.input.names() +
-                          "\nframe step " + std::to_string(options.frame_step) + "\n" + summary +
-                          "\n" + (complete ? "complete\n" : "incomplete\n"));
-  folder.commit();
-  for (const std::string& note : recorder.notes()) {
-    std::cerr << note << "\n";
-  }
-  std::cout << options.output << ": " << summary << "\n";
-  if (!complete) {
-    throw Interrupted("interrupted; what is done stands in " + options.output +
-                      ", marked incomplete");
-  }
+  conclude(&folder, {options.output, kMarker,
+                     "associate\ninput " + options.input.names() + "\nframe step " +
+                         std::to_string(options.frame_step),
+                     summary, recorder.notes(), complete});
   return kExitDone;
 }
 

@@ -3,11 +3,8 @@
 
 #include <boost/program_options/value_semantic.hpp>
 
-#include <iostream>
 #include <opencv2/core/utility.hpp>
 
-#include "evolin_ros/base/atomic_file.h"
-#include "evolin_ros/base/version.h"
 #include "evolin_ros/evaluation/method_source.h"
 #include "method_choice.h"
 #include "options.h"
@@ -91,18 +88,8 @@ int runDetect(const std::vector<std::string>& arguments) {
   const std::string summary =
       std::to_string(recorder.lines()) + " lines of " + front_end_options.lines_source + " in " +
       std::to_string(recorder.frames()) + " of " + std::to_string(recorder.images()) + " images";
-  writeFileAtomically(folder.path() / kMarker, programVersion() + " detect\ninput " +
-                                                   options.input.names() + "\n" + summary + "\n" +
-                                                   (complete ? "complete\n" : "incomplete\n"));
-  folder.commit();
-  for (const std::string& note : recorder.notes()) {
-    std::cerr << note << "\n";
-  }
-  std::cout << options.output << ": " << summary << "\n";
-  if (!complete) {
-    throw Interrupted("interrupted; what is done stands in " + options.output +
-                      ", marked incomplete");
-  }
+  conclude(&folder, {options.output, kMarker, "detect\ninput " + options.input.names(), summary,
+                     recorder.notes(), complete});
   return kExitDone;
 }
 

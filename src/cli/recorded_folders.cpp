@@ -1,12 +1,15 @@
 // Frame by frame as they come.
 #include "recorded_folders.h"
 
+#include <iostream>
 #include <optional>
 #include <utility>
 
+#include "command.h"
 #include "evolin_ros/base/atomic_file.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
+#include "evolin_ros/base/version.h"
 #include "evolin_ros/dataset/csv.h"
 #include "interrupt.h"
 #include "progress.h"
@@ -105,6 +108,21 @@ bool record(PartReader* reader, FrontEnd* front_end, FrontEndSink* sink, bool qu
     sink->takeNote(note);
   }
   return !more;
+}
+
+void conclude(OutputFolder* folder, const RecordedFolder& recorded) {
+  writeFileAtomically(folder->path() / recorded.marker,
+                      programVersion() + " " + recorded.heading + "\n" + recorded.summary + "\n" +
+                          (recorded.complete ? "complete\n" : "incomplete\n"));
+  folder->commit();
+  for (const std::string& note : recorded.notes) {
+    std::cerr << note << "\n";
+  }
+  std::cout << recorded.output << ": " << recorded.summary << "\n";
+  if (!recorded.complete) {
+    throw Interrupted("interrupted; what is done stands in " + recorded.output +
+                      ", marked incomplete");
+  }
 }
 
 }  // namespace evolin::cli

@@ -7,6 +7,7 @@
 
 #include "evolin_ros/dataset/stamps_file.h"
 #include "evolin_ros/evaluation/front_end.h"
+#include "output_folder.h"
 
 namespace evolin::cli {
 
@@ -65,5 +66,19 @@ class MatchRecorder : public FrontEndSink {
 /// Takes the whole recording through a front-end, with progress on standard error unless `quiet`.
 /// False when the user pressed Ctrl-C: what came before it was given on.
 bool record(PartReader* reader, FrontEnd* front_end, FrontEndSink* sink, bool quiet);
+
+/// What record() has made and what is said of it.
+struct RecordedFolder {
+  std::string output;   ///< as the user named the folder
+  std::string marker;   ///< name of the file that tells whose folder it is
+  std::string heading;  ///< its first lines: verb, input and settings
+  std::string summary;
+  std::vector<std::string> notes;
+  bool complete = true;
+};
+
+/// Writes the marker, gives `folder` its final name, and tells the notes on standard error and the
+/// summary on standard output. Throws Interrupted, after all that, when it is not complete.
+void conclude(OutputFolder* folder, const RecordedFolder& recorded);
 
 }  // namespace evolin::cli

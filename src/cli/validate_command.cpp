@@ -6,6 +6,7 @@
 #include <iostream>
 #include <optional>
 
+#include "evolin_ros/evaluation/agreement_check.h"
 #include "evolin_ros/evaluation/recording_check.h"
 #include "interrupt.h"
 #include "options.h"
@@ -20,7 +21,8 @@ namespace {
 
 constexpr const char* kUsage =
     "Reads a bag or dataset folder as 'evolin run' does and says what is there and what is missing "
-    "for which metric: rates, gaps, image sizes, intrinsics, depth, poses, ground truth; each "
+    "for which metric: rates, gaps, image sizes, intrinsics, depth, poses, ground truth, and "
+    "whether images, depth and poses fit each other or would do so read in another way; each "
     "finding with what to do. Exit status 1 when no metric of lines could be measured.\n\n"
     "Usage: evolin validate --input BAG|DIR [OPTIONS]";
 
@@ -41,8 +43,10 @@ int runValidate(const std::vector<std::string>& arguments) {
     progress.emplace("images", reader->images());
   }
   RecordingCheck check;
+  AgreementCheck agreement(reader->images());
   while (const std::optional<StreamPart> part = reader->next()) {
     check.add(*part);
+    agreement.add(*part);
     if (guard.interrupted()) {
       throw Interrupted("interrupted after " + std::to_string(check.images()) +
                         " images; nothing was found out of the rest");
@@ -55,7 +59,10 @@ int runValidate(const std::vector<std::string>& arguments) {
     progress->finish(check.images());
   }
   std::cout << input.names() << "\n" << reader->provenance() << "\n\n";
-  for (const Finding& finding : check.findings()) {
+  std::vector<Finding> findings = check.findings();
+  const std::vector<Finding> of_agreement = agreement.findings();
+  findings.insert(findings.end(), of_agreement.begin(), of_agreement.end());
+  for (const Finding& finding : findings) {
     std::cout << toString(finding.level) << ": " << finding.subject << ": " << finding.text
               << (finding.advice.empty() ? "" : "; " + finding.advice) << "\n";
   }

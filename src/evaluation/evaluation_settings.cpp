@@ -60,7 +60,7 @@ void readMotion(ParameterReader* reader, const std::string& owner, PassOptions* 
   int depth_buffer = static_cast<int>(motion.depth_buffer);
   reader->read("repeatability_steps", &motion.repeatabilities.frame_steps, 1, 100000);
   reader->read("repeatability_score_thresholds", &motion.repeatability_score_thresholds, -1e300,
-               1e300);
+               1e300, ParameterReader::EmptyList::kAccepted);
   reader->read("pose_strategy", &strategy, {"evolin", "robust"});
   reader->read("pose_seed", &pose_seed, 0, std::numeric_limits<int>::max());
   reader->read("success_rotation", &pose_errors.success_rotation, 0, 180);
@@ -111,8 +111,8 @@ EvaluationSettings readEvaluationSettings(ParameterReader* reader, const std::st
   reader->read("buffer", &buffer, 2, 1000000);
   readMotion(reader, owner, &pass);
   reader->read("carry_over_gate", &pass.evaluation.carry_over_gate, 1e-6, 1e6);
-  reader->read("heatmap_score_thresholds", &pass.evaluation.heatmap.score_thresholds, -1e300,
-               1e300);
+  reader->read("heatmap_score_thresholds", &pass.evaluation.heatmap.score_thresholds, -1e300, 1e300,
+               ParameterReader::EmptyList::kAccepted);
   reader->read("heatmap_budget", &heatmap_budget, 0, kLargest);
   readBootstrap(reader, &settings.bootstrap);
   if (heatmap_budget > 0) {

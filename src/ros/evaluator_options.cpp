@@ -6,33 +6,12 @@
 
 namespace evolin::ros_shell {
 
-namespace {
-
-/// Of these lists an empty one says that there are none, as its absence does.
-YAML::Node withoutEmptyThresholds(const YAML::Node& parameters) {
-  if (!parameters.IsMap()) {
-    return parameters;
-  }
-  YAML::Node rest(YAML::NodeType::Map);
-  for (const auto& entry : parameters) {
-    const std::string name = entry.first.Scalar();
-    const bool may_be_empty =
-        name == "heatmap_score_thresholds" || name == "repeatability_score_thresholds";
-    if (!may_be_empty || !entry.second.IsSequence() || entry.second.size() > 0) {
-      rest[name] = entry.second;
-    }
-  }
-  return rest;
-}
-
-}  // namespace
-
 EvaluatorOptions readEvaluatorOptions(const YAML::Node& parameters, const std::string& owner) {
   constexpr double kLongest = 1e6;
   constexpr double kHeatmapBudget = 1;
   EvaluatorOptions options;
   std::string pose_from = "topic";
-  ParameterReader reader(withoutEmptyThresholds(parameters), owner);
+  ParameterReader reader(parameters, owner);
   const EvaluationSettings settings = readEvaluationSettings(&reader, owner, kHeatmapBudget);
   options.pass = settings.pass;
   options.bootstrap = settings.bootstrap;

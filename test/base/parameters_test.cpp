@@ -182,6 +182,18 @@ TEST(ParameterReader, TakesOnlyAcceptedWords) {
   EXPECT_THROW(readOne("p: {a: b}", std::string()), ConfigError);
 }
 
+TEST(ParameterReader, TakesAnEmptyListOnlyWhereThatIsAccepted) {
+  const YAML::Node node = YAML::Load("{none: [], some: [1.5]}");
+  std::vector<double> none = {1, 2};
+  ParameterReader reader(node, "test");
+  reader.read("none", &none, 0, 10, ParameterReader::EmptyList::kAccepted);
+  EXPECT_TRUE(none.empty());
+  reader.read("some", &none, 0, 10, ParameterReader::EmptyList::kAccepted);
+  EXPECT_EQ(none, std::vector<double>{1.5});
+  EXPECT_THROW(reader.read("none", &none, 0, 10), ConfigError);
+  EXPECT_EQ(none, std::vector<double>{1.5}) << "the old value stays";
+}
+
 TEST(ParameterReader, KeepsTheOldValueOnError) {
   int count = 5;
   EXPECT_THROW(ParameterReader(YAML::Load("p: 11"), "x").read("p", &count, 0, 10), ConfigError);

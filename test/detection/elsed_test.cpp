@@ -17,25 +17,6 @@ class ElsedTest : public ::testing::Test {
   Elsed detector_;
 };
 
-TEST_F(ElsedTest, FindsTheSidesOfAQuadrilateral) { test::expectFindsQuadrilateral(&detector_); }
-
-TEST_F(ElsedTest, SurvivesAwkwardImages) { test::expectSurvivesAwkwardImages(&detector_); }
-
-TEST_F(ElsedTest, RefusesOtherImages) { test::expectRefusesOtherImages(&detector_); }
-
-TEST_F(ElsedTest, IsIndependentOfOtherFrames) { test::expectIndependentOfOtherFrames<Elsed>(); }
-
-TEST_F(ElsedTest, ReusesItsMemory) { test::expectReusesMemory(&detector_, 1); }
-
-TEST_F(ElsedTest, SelectsByLengthAndNumber) { test::expectSelects<Elsed>(); }
-
-TEST_F(ElsedTest, RefusesToDetectBeforeItIsConfigured) {
-  Elsed fresh;
-  Frame frame;
-  frame.image = test::quadrilateralImage();
-  EXPECT_THROW(fresh.detect(frame), Error);
-}
-
 TEST_F(ElsedTest, NamesWhatIsWrongWithAParameter) {
   Elsed fresh;
   test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{kernal: 3}")); },

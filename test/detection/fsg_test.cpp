@@ -48,26 +48,6 @@ class Segments : public LineDetector {
   lsd::LineFinder finder_{standard(), {lsd::SeedOrder::kRows, false}};
 };
 
-TEST_F(FsgTest, FindsTheSidesOfAQuadrilateral) { test::expectFindsQuadrilateral(&detector_); }
-
-TEST_F(FsgTest, SurvivesAwkwardImages) { test::expectSurvivesAwkwardImages(&detector_); }
-
-TEST_F(FsgTest, RefusesOtherImages) { test::expectRefusesOtherImages(&detector_); }
-
-TEST_F(FsgTest, IsIndependentOfOtherFrames) { test::expectIndependentOfOtherFrames<Fsg>(); }
-
-// Its result, and what OpenCV's filters and the table for another size take.
-TEST_F(FsgTest, ReusesItsMemory) { test::expectReusesMemory(&detector_, 20); }
-
-TEST_F(FsgTest, SelectsByLengthAndNumber) { test::expectSelects<Fsg>(); }
-
-TEST_F(FsgTest, RefusesToDetectBeforeItIsConfigured) {
-  Fsg fresh;
-  Frame frame;
-  frame.image = test::quadrilateralImage();
-  EXPECT_THROW(fresh.detect(frame), Error);
-}
-
 TEST_F(FsgTest, NamesWhatIsWrongWithAParameter) {
   Fsg fresh;
   test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{max_gaps: 3}")); },

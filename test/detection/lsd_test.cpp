@@ -24,26 +24,6 @@ Lsd* configured(Lsd* detector, const char* parameters) {
   return detector;
 }
 
-TEST_F(LsdTest, FindsTheSidesOfAQuadrilateral) { test::expectFindsQuadrilateral(&detector_); }
-
-TEST_F(LsdTest, SurvivesAwkwardImages) { test::expectSurvivesAwkwardImages(&detector_); }
-
-TEST_F(LsdTest, RefusesOtherImages) { test::expectRefusesOtherImages(&detector_); }
-
-TEST_F(LsdTest, IsIndependentOfOtherFrames) { test::expectIndependentOfOtherFrames<Lsd>(); }
-
-// Its result, and what OpenCV's filters take for themselves.
-TEST_F(LsdTest, ReusesItsMemory) { test::expectReusesMemory(&detector_, 20); }
-
-TEST_F(LsdTest, SelectsByLengthAndNumber) { test::expectSelects<Lsd>(); }
-
-TEST_F(LsdTest, RefusesToDetectBeforeItIsConfigured) {
-  Lsd fresh;
-  Frame frame;
-  frame.image = test::quadrilateralImage();
-  EXPECT_THROW(fresh.detect(frame), Error);
-}
-
 TEST_F(LsdTest, NamesWhatIsWrongWithAParameter) {
   Lsd fresh;
   test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{log_epsilon: 3}")); },

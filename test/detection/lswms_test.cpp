@@ -17,25 +17,6 @@ class LswmsTest : public ::testing::Test {
   Lswms detector_;
 };
 
-TEST_F(LswmsTest, FindsTheSidesOfAQuadrilateral) { test::expectFindsQuadrilateral(&detector_); }
-
-TEST_F(LswmsTest, SurvivesAwkwardImages) { test::expectSurvivesAwkwardImages(&detector_); }
-
-TEST_F(LswmsTest, RefusesOtherImages) { test::expectRefusesOtherImages(&detector_); }
-
-TEST_F(LswmsTest, IsIndependentOfOtherFrames) { test::expectIndependentOfOtherFrames<Lswms>(); }
-
-TEST_F(LswmsTest, ReusesItsMemory) { test::expectReusesMemory(&detector_, 1); }
-
-TEST_F(LswmsTest, SelectsByLengthAndNumber) { test::expectSelects<Lswms>(); }
-
-TEST_F(LswmsTest, RefusesToDetectBeforeItIsConfigured) {
-  Lswms fresh;
-  Frame frame;
-  frame.image = test::quadrilateralImage();
-  EXPECT_THROW(fresh.detect(frame), Error);
-}
-
 TEST_F(LswmsTest, NamesWhatIsWrongWithAParameter) {
   Lswms fresh;
   test::expectError<ConfigError>([&] { fresh.configure(YAML::Load("{radios: 3}")); },

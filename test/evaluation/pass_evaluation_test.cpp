@@ -26,6 +26,7 @@ using test::matchSet;
 using test::Part;
 using test::randomPass;
 using test::textOf;
+using test::withBuffer;
 
 FrameState stateAt(const Report& report, Stamp stamp) {
   for (const FrameRecord& frame : report.frames) {
@@ -33,12 +34,6 @@ FrameState stateAt(const Report& report, Stamp stamp) {
   }
   ADD_FAILURE() << "no frame at " << formatStamp(stamp);
   return FrameState::kWaiting;
-}
-
-PassOptions withBuffer(std::size_t buffer) {
-  PassOptions options;
-  options.buffer = buffer;
-  return options;
 }
 
 TEST(PassEvaluation, ScoresAFrameOnceBothPartsAreThere) {
@@ -259,86 +254,6 @@ TEST(PassEvaluation, AFullBufferLetsTheOldestGoAndCountsIt) {
   EXPECT_EQ(pass.coverage().seen, 30U);
 }
 
-TEST(PassEvaluation, AFullBufferOfMatchesCountsTheOldest) {
-  PassEvaluation pass(withBuffer(5));
-  for (Stamp stamp = 1; stamp <= 12; ++stamp) {
-    pass.addMatches(matchSet(stamp, stamp + 1, "ground_truth", {{0, 0}}));
-  }
-  const Report report = pass.report(true);
-  EXPECT_EQ(report.pairs.no_ground_truth, 12U);
-  EXPECT_EQ(report.pairs.evaluated, 0U);
-  EXPECT_EQ(whyNoAssociation(report), "not evaluated: no ground truth for the matched frames");
-}
-
-TEST(PassEvaluation, MatchesBetweenDetectedLinesAreNotEvaluated) {
-  for (const bool ground_truth_first : {true, false}) {
-    PassEvaluation pass;
-    if (ground_truth_first) {
-      pass.addGroundTruth(handTruth(1));
-      pass.addGroundTruth(handTruth(2));
-    }
-    pass.addLines(handLines(1));
-    pass.addLines(handLines(2));
-    pass.addMatches(matchSet(1, 2, "detector", {{0, 0}}));
-    EXPECT_EQ(pass.report(false).pairs.detected_lines, 1U);
-    if (!ground_truth_first) {
-      pass.addGroundTruth(handTruth(1));
-      pass.addGroundTruth(handTruth(2));
-    }
-    const Report report = pass.report(true);
-    EXPECT_EQ(report.pairs.detected_lines, 1U);
-    EXPECT_EQ(report.pairs.evaluated, 0U);
-    EXPECT_FALSE(report.pairs_expected.has_value());
-    EXPECT_EQ(whyNoAssociation(report), "not evaluated: detected lines");
-    EXPECT_NE(toMarkdown(report).find("not evaluated: detected lines"), std::string::npos);
-  }
-}
-
-TEST(PassEvaluation, GroundTruthWithoutIdsGivesAReasonAndNoZero) {
-  PassEvaluation pass;
-  for (const Stamp stamp : {1, 2}) {
-    LineSet truth = handTruth(stamp);
-    for (LineSegment& line : truth.lines) line.id = kNoId;
-    pass.addGroundTruth(truth);
-  }
-  pass.addMatches(matchSet(1, 2, "ground_truth", {{0, 0}}));
-  const Report report = pass.report(true);
-  EXPECT_EQ(report.pairs.without_ids, 1U);
-  EXPECT_EQ(report.pairs.evaluated, 0U);
-  EXPECT_EQ(whyNoAssociation(report),
-            "not evaluated: the ground truth has no ids, its true matches are unknown");
-  EXPECT_NE(toJson(report).find("\"precision\": null"), std::string::npos);
-}
-
-TEST(PassEvaluation, UnusableMatchesAreSkippedWithANote) {
-  PassEvaluation pass;
-  for (const Stamp stamp : {1, 2, 3}) pass.addGroundTruth(handTruth(stamp));
-  LineSet twice = handTruth(4);
-  twice.lines[1].id = 0;
-  pass.addGroundTruth(twice);
-  EXPECT_EQ(pass.addMatches(matchSet(1, 2, "ground_truth", {{0, 7}})).notes.size(), 1U);
-  EXPECT_EQ(pass.addMatches(matchSet(3, 4, "ground_truth", {{0, 0}})).notes.size(), 1U);
-  const Report report = pass.report(true);
-  EXPECT_EQ(report.pairs.skipped, 1U);
-  EXPECT_EQ(report.pairs.bad_ground_truth, 1U);
-  EXPECT_EQ(report.pairs.evaluated, 0U);
-  EXPECT_EQ(whyNoAssociation(report), "not evaluated: no usable pair, see the notes");
-  EXPECT_NE(report.notes.at(0).find("(0, 7)"), std::string::npos);
-  EXPECT_NE(report.notes.at(1).find("id 0"), std::string::npos);
-}
-
-TEST(PassEvaluation, ExpectsPairsByTheFrameStep) {
-  PassOptions options;
-  options.frame_step = 3;
-  PassEvaluation pass(options);
-  pass.addMatches(matchSet(1, 4, "ground_truth", {}));
-  for (const Stamp stamp : {1, 2}) pass.addGroundTruth(handTruth(stamp));
-  EXPECT_EQ(pass.report(false).pairs_expected, 0U);
-  for (const Stamp stamp : {3, 4, 5}) pass.addGroundTruth(handTruth(stamp));
-  EXPECT_EQ(pass.report(false).pairs_expected, 2U);
-  EXPECT_EQ(pass.report(false).pairs.evaluated, 1U);
-}
-
 TEST(PassEvaluation, WaitsForLinesAndForTheNewestMatches) {
   PassOptions options;
   options.families = {MetricFamily::kDetection, MetricFamily::kAssociation};
@@ -401,83 +316,6 @@ TEST(PassEvaluation, KeepsAHundredNotesAndSaysHowManyMore) {
   EXPECT_EQ(report.coverage.bad_ground_truth, 130U);
 }
 
-TEST(PassEvaluation, MatchesOfOtherLinesOrBackwardsAreSkippedAndNamed) {
-  PassEvaluation pass;
-  for (const Stamp stamp : {1, 2}) {
-    pass.addGroundTruth(handTruth(stamp));
-    pass.addLines(handLines(stamp));
-  }
-  EXPECT_EQ(pass.addMatches(matchSet(1, 2, "another_detector", {{0, 0}})).notes.size(), 1U);
-  EXPECT_EQ(pass.addMatches(matchSet(2, 2, "detector", {{0, 0}})).notes.size(), 1U);
-  EXPECT_EQ(pass.addMatches(matchSet(2, 1, "detector", {{0, 0}})).notes.size(), 1U);
-  const Report report = pass.report(true);
-  EXPECT_EQ(report.pairs.skipped, 3U);
-  EXPECT_EQ(report.detected_pairs.evaluated, 0U);
-  EXPECT_NE(report.notes.at(0).find("'another_detector'"), std::string::npos) << report.notes[0];
-}
-
-TEST(PassEvaluation, TracksNeedNoGroundTruth) {
-  PassEvaluation pass;
-  for (const Stamp stamp : {1, 2, 3}) {
-    LineSet lines = handLines(stamp);
-    for (LineSegment& line : lines.lines) line.id = kNoId;
-    pass.addLines(lines);
-    if (stamp > 1) pass.addMatches(matchSet(stamp - 1, stamp, "detector", {{0, 0}, {1, 1}}));
-  }
-  const Report report = pass.report(true);
-  EXPECT_TRUE(report.tracks.from_matches);
-  // Two lines followed through three frames, the third one new in each.
-  EXPECT_EQ(report.tracks.tracks, 5U) << report.tracks.reason;
-  EXPECT_EQ(report.tracks.longest, 3U);
-  EXPECT_EQ(report.detected_pairs.no_ground_truth, 2U);
-}
-
-/// Line 0 is the same physical line throughout but changes its id every 40 frames.
-void addTracked(Stamp first, Stamp last, PassEvaluation* pass) {
-  for (Stamp stamp = first; stamp <= last; ++stamp) {
-    LineSet lines = handLines(stamp);
-    lines.lines[0].id = stamp / 40;
-    lines.lines[1].id = 1000;
-    lines.lines[2].id = kNoId;
-    pass->addGroundTruth(handTruth(stamp));
-    pass->addLines(lines);
-  }
-}
-
-TEST(PassEvaluation, TracksOfALongPassOutliveTheBuffer) {
-  for (const std::size_t buffer : {std::size_t{2}, std::size_t{50}, std::size_t{1000}}) {
-    PassEvaluation pass(withBuffer(buffer));
-    addTracked(1, 199, &pass);
-    const TrackReport tracks = pass.report(true).tracks;
-    EXPECT_FALSE(tracks.from_matches) << "buffer " << buffer;
-    EXPECT_EQ(tracks.frames, 199U) << "buffer " << buffer;
-    EXPECT_EQ(tracks.tracks, 6U) << "buffer " << buffer;
-    EXPECT_EQ(tracks.longest, 199U) << "buffer " << buffer;
-    // The second line is beyond the gate of every annotated one.
-    EXPECT_EQ(tracks.observations, 199U) << "buffer " << buffer;
-    EXPECT_EQ(tracks.identity_switches, 4U) << "buffer " << buffer;
-  }
-}
-
-TEST(PassEvaluation, TracksCountAFrameThatComesAfterManyLaterOnes) {
-  PassEvaluation pass;
-  addTracked(2, 100, &pass);
-  addTracked(1, 1, &pass);
-  const TrackReport tracks = pass.report(true).tracks;
-  EXPECT_EQ(tracks.frames, 99U);
-  EXPECT_EQ(tracks.late, 1U);
-}
-
-TEST(PassEvaluation, MatchesOfFramesThatLeftTheBufferAreSkipped) {
-  PassEvaluation pass(withBuffer(2));
-  addTracked(1, 100, &pass);
-  pass.addMatches(matchSet(1, 2, "detector", {{0, 0}}));
-  const Report report = pass.report(true);
-  EXPECT_EQ(report.detected_pairs.skipped, 1U);
-  ASSERT_FALSE(report.notes.empty());
-  EXPECT_NE(report.notes.back().find("raise buffer"), std::string::npos) << report.notes.back();
-}
-
 TEST(PassEvaluation, HeatmapOfLinesWithoutScoresIsThatWithoutThresholds) {
   PassOptions plain;
   plain.families = {MetricFamily::kHeatmap};
@@ -512,59 +350,6 @@ TEST(PassEvaluation, HeatmapOfLinesWithoutScoresIsThatWithoutThresholds) {
   EXPECT_NE(toJson(reports[1]).find("\"unscored\""), std::string::npos);
   EXPECT_NE(toMarkdown(reports[1]).find("lines without scores"), std::string::npos);
   EXPECT_EQ(whyNoHeatmap(reports[0]), "");
-}
-
-/// By matches where `ids` is false: a frame has the lines 0, 1, 2 and every tenth loses the second.
-TrackReport tracksOf(int frames, std::size_t buffer, bool ids) {
-  PassOptions options = withBuffer(buffer);
-  options.families = {MetricFamily::kTracks};
-  PassEvaluation pass(options);
-  for (int i = 0; i < frames; ++i) {
-    const Stamp stamp = (i + 1) * kSecond;
-    LineSet lines = handLines(stamp);
-    for (std::size_t row = 0; ids && row < 3; ++row) {
-      lines.lines[row].id = static_cast<std::int64_t>(row) + (row == 1 ? 10 * (i / 10) : 0);
-    }
-    pass.addGroundTruth(handTruth(stamp));
-    pass.addLines(lines);
-    LineMatches matches = {{0, 0}, {2, 2}};
-    if (i % 10 != 0) matches.push_back({1, 1});
-    if (i > 0) pass.addMatches(matchSet(stamp - kSecond, stamp, "detector", matches));
-  }
-  return pass.tracks();
-}
-
-TEST(PassEvaluation, TracksAreTheSameWhateverTheBuffer) {
-  for (const bool ids : {true, false}) {
-    SCOPED_TRACE(ids);
-    for (const std::size_t buffer : {std::size_t{2}, std::size_t{40}, std::size_t{1000}}) {
-      const TrackReport tracks = tracksOf(200, buffer, ids);
-      EXPECT_EQ(tracks.from_matches, !ids);
-      EXPECT_EQ(tracks.frames, 200U);
-      EXPECT_EQ(tracks.tracks, 22U);
-      EXPECT_EQ(tracks.longest, 200U);
-      EXPECT_EQ(tracks.median_length, 10);
-      EXPECT_EQ(tracks.identity_switches, 0U) << "the second line is 6 pixels off: beyond the gate";
-      EXPECT_EQ(tracks.late, 0U);
-    }
-  }
-}
-
-TEST(PassEvaluation, MatchesOfFramesThatHaveLeftTheBufferAreSkippedWithANote) {
-  PassOptions options = withBuffer(3);
-  options.families = {MetricFamily::kAssociation};
-  PassEvaluation pass(options);
-  for (int i = 1; i <= 10; ++i) {
-    pass.addGroundTruth(handTruth(i * kSecond));
-    pass.addLines(handLines(i * kSecond));
-  }
-  pass.addMatches(matchSet(kSecond, 2 * kSecond, "detector", {{0, 0}}));
-  pass.addMatches(matchSet(9 * kSecond, 10 * kSecond, "detector", {{0, 0}}));
-  const Report report = pass.report(true);
-  EXPECT_EQ(report.detected_pairs.evaluated, 1U);
-  EXPECT_EQ(report.detected_pairs.skipped, 1U);
-  ASSERT_EQ(report.notes.size(), 1U);
-  EXPECT_NE(report.notes[0].find("left the buffer of 3"), std::string::npos) << report.notes[0];
 }
 
 TEST(PassEvaluation, IsNotCompleteWhileTasksAreUnderWay) {

@@ -69,6 +69,12 @@ inline LineSet handLines(Stamp stamp) {
       stamp, {line(10, 10, 50, 30, 0.9), line(63, 60, 103, 90, 0.8), line(10, 100, 40, 110, 0.7)});
 }
 
+inline PassOptions withBuffer(std::size_t buffer) {
+  PassOptions options;
+  options.buffer = buffer;
+  return options;
+}
+
 inline MatchSet matchSet(Stamp first, Stamp second, const std::string& lines_source,
                          LineMatches matches) {
   MatchSet set;

@@ -75,6 +75,8 @@ Process::Process(const std::vector<std::string>& command) {
   }
   if (pid_ == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    // A shell that starts the tests in the background lets them, and so their children, ignore it.
+    std::signal(SIGINT, SIG_DFL);
     if (getppid() == parent) {
       execvp(arguments.front(), arguments.data());
     }

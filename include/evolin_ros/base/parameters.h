@@ -15,6 +15,8 @@ namespace evolin {
 /// map. All errors are ConfigError.
 class ParameterReader {
  public:
+  enum class EmptyList { kRefused, kAccepted };
+
   /// `owner` stands at the head of every message, for example "detector opencv_lsd".
   ParameterReader(const YAML::Node& node, std::string owner);
 
@@ -28,10 +30,11 @@ class ParameterReader {
   void read(const std::string& key, std::string* value,
             const std::vector<std::string>& accepted = {});
 
-  /// A list of at least one number, each within the range.
+  /// A list of numbers, each within the range; of at least one unless `empty` is accepted.
   void read(const std::string& key, std::vector<double>* values,
             double low = -std::numeric_limits<double>::infinity(),
-            double high = std::numeric_limits<double>::infinity());
+            double high = std::numeric_limits<double>::infinity(),
+            EmptyList empty = EmptyList::kRefused);
   void read(const std::string& key, std::vector<int>* values, int low, int high);
   void read(const std::string& key, std::vector<std::string>* values,
             const std::vector<std::string>& accepted = {});

@@ -16,7 +16,7 @@ namespace evolin {
 struct Finding {
   enum class Level { kGood, kDoubt, kMissing };
   Level level = Level::kGood;
-  std::string subject;  ///< "images", "camera", "depth", "poses" or "ground truth"
+  std::string subject;  ///< "images", "camera", "depth", "poses", "ground truth", "agreement"
   std::string text;
   std::string advice;  ///< what to do; "" where nothing needs doing
 };
