@@ -64,7 +64,8 @@ class BenchmarkTest : public ::testing::Test {
 
   std::map<std::string, std::string> states(const std::string& output) const {
     std::map<std::string, std::string> states;
-    for (const Json& cell : readJson(folder_.path() / output / "matrix.json").at("cells")) {
+    const Json matrix = readJson(folder_.path() / output / "matrix.json");
+    for (const Json& cell : matrix.at("cells")) {
       states[cell.at("id")] = cell.at("state");
     }
     return states;
