@@ -104,7 +104,7 @@ TEST_F(MatrixTest, ThresholdsOfADetectorGoWhereTheyBelong) {
         read(room_ + methods +
              "settings:\n- {name: s, metrics: [detection, pose], associate: detected}\n");
       },
-      {"matrix.yaml:7", "'s'", "'a'", "a setting of its own"});
+      {"matrix.yaml:8", "'s'", "'a'", "a setting of its own"});
 }
 
 TEST_F(MatrixTest, TheNearerParameterWins) {

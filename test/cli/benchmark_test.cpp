@@ -228,6 +228,7 @@ TEST_F(BenchmarkTest, WhatFailsAndWhatIsNotThereIsToldAndKeepsNothingBack) {
             std::string::npos);
 
   // Lines of another program take the place of a plug-in; a failed cell is tried again.
+  fs::create_directories(path("theirs"));
   fs::copy(path("out/detections/room--lsd"), path("theirs/room"), fs::copy_options::recursive);
   const Outcome again = run("out");
   EXPECT_EQ(again.status, kExitFailed);
