@@ -51,13 +51,17 @@ class EvaluatorNodelet : public SafeNodelet {
   /// Of the cumulative topics, s of wall time.
   static constexpr double kPublishPeriod = 0.5;
 
-  void start() override {
+  /// An evaluator before this one may still hold the folder.
+  void prepare() override {
     options_ = readEvaluatorOptions(privateParameters(getPrivateNodeHandle()), getName());
     session_ = std::make_unique<EvaluationSession>(
         getNodeHandle(), getPrivateNodeHandle(), options_, getName(),
         EvaluationSession::Log{
             [this](const std::string& text) { warn(text); },
             [this](const std::string& text) { NODELET_ERROR("%s", text.c_str()); }});
+  }
+
+  void start() override {
     const ReportKeeper& keeper = session_->keeper();
     if (keeper.replacesEarlier()) {
       NODELET_WARN("the report of an earlier run in %s will be replaced, its pass_N with it",

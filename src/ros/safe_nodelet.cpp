@@ -2,6 +2,7 @@
 #include "safe_nodelet.h"
 
 #include <nodelet/detail/callback_queue.h>
+#include <ros/node_handle.h>
 
 #include <exception>
 
@@ -27,15 +28,36 @@ SafeNodelet::LibraryLock SafeNodelet::lockLibraries() {
   return LibraryLock(mutex);
 }
 
-void SafeNodelet::onInit() {
+void SafeNodelet::closeGates() {
   single_threaded_queue_ = hold(getSTCallbackQueue());
   multi_threaded_queue_ = hold(getMTCallbackQueue());
+  if (single_threaded_queue_ == nullptr || multi_threaded_queue_ == nullptr) {
+    return;
+  }
+  single_threaded_gate_ = std::make_unique<GateQueue>(single_threaded_queue_);
+  multi_threaded_gate_ = std::make_unique<GateQueue>(multi_threaded_queue_);
+  getNodeHandle().setCallbackQueue(single_threaded_gate_.get());
+  getPrivateNodeHandle().setCallbackQueue(single_threaded_gate_.get());
+  getMTNodeHandle().setCallbackQueue(multi_threaded_gate_.get());
+  getMTPrivateNodeHandle().setCallbackQueue(multi_threaded_gate_.get());
+}
+
+void SafeNodelet::onInit() {
+  closeGates();
   try {
+    prepare();
     const LibraryLock lock = lockLibraries();
     start();
   } catch (const std::exception& error) {
     NODELET_FATAL("%s", error.what());
     throw;
+  }
+  if (single_threaded_gate_ != nullptr) {
+    // The loader does so as soon as this returns; before that the queues would drop what waits.
+    single_threaded_queue_->enable();
+    multi_threaded_queue_->enable();
+    single_threaded_gate_->open();
+    multi_threaded_gate_->open();
   }
 }
 

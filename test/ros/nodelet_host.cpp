@@ -1,7 +1,7 @@
 // A process that hosts our nodelets as a manager does, for tests that run under sanitizers: 'host
 // cycle N' loads and unloads all of them N times in a stream; 'host stream FOLDER' evaluates one
 // until it is interrupted; 'host address ENCODING' sees whether an image reaches a plug-in
-// uncopied.
+// uncopied; 'host start late' whether a nodelet that starts slowly misses anything.
 #include <cv_bridge/cv_bridge.h>
 #include <nodelet/loader.h>
 #include <ros/ros.h>
@@ -27,6 +27,7 @@
 #include "evolin_ros/LineArray.h"
 #include "evolin_ros/dataset/csv.h"
 #include "evolin_ros/dataset/stamps_file.h"
+#include "test/ros/slow_start.h"
 #include "test/support/drawn_sequence.h"
 
 namespace evolin::test {
@@ -286,6 +287,9 @@ int main(int argc, char** argv) {
     if (verb == "address") {
       return evolin::test::address(argv[2]);
     }
+    if (verb == "start") {
+      return evolin::test::slowStart();
+    }
     if (verb == "stream") {
       return evolin::test::stream(argv[2]);
     }
@@ -293,7 +297,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "nodelet_host: %s\n", error.what());
     return 3;
   }
-  std::fprintf(stderr,
-               "usage: nodelet_host cycle ROUNDS FOLDER | stream FOLDER | address ENCODING\n");
+  std::fprintf(
+      stderr,
+      "usage: nodelet_host cycle ROUNDS FOLDER | stream FOLDER | address ENCODING | start late\n");
   return 2;
 }

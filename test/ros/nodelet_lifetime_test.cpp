@@ -93,6 +93,11 @@ TEST_F(NodeletLifetime, APlugInGetsThePixelsOfTheMessageThemselves) {
   }
 }
 
+TEST_F(NodeletLifetime, WhatComesWhileANodeletStartsIsNotLost) {
+  Process process({host(), "start", "late"});
+  EXPECT_EQ(process.wait(60), std::optional<int>(0)) << "3: does not load; 4: something is lost";
+}
+
 TEST_F(NodeletLifetime, AHundredLoadsAndUnloadsInAStream) {
   Process process({host(), "cycle", "100", folder_.path().string()});
   // ThreadSanitizer takes minutes, more where others use the machine.
