@@ -188,6 +188,10 @@ EvaluationSession::~EvaluationSession() {
 std::filesystem::path EvaluationSession::save(bool complete, bool confidence) {
   // Written in the order in which they are built: a snapshot must not land on a final report.
   const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
+  return saveNewest(complete, confidence);
+}
+
+std::filesystem::path EvaluationSession::saveNewest(bool complete, bool confidence) {
   writeFinished();
   std::optional<std::pair<int, PassEvaluation>> newest;
   std::size_t inputs = 0;
@@ -234,6 +238,8 @@ std::pair<CoverageCounts, bool> EvaluationSession::coverage() const {
 }
 
 void EvaluationSession::saveChanges() {
+  // Before the look: the final report may be on its way, with all that has come.
+  const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (inputs_ == saved_inputs_) {
@@ -241,7 +247,7 @@ void EvaluationSession::saveChanges() {
     }
   }
   try {
-    save(false, false);
+    saveNewest(false, false);
   } catch (const std::exception& error) {
     if (errors_.due()) {
       log_.error(error.what());

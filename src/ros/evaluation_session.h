@@ -144,6 +144,8 @@ class EvaluationSession {
   }
 
   void noteInput(bool of_frame);
+  /// With save_mutex_ held.
+  std::filesystem::path saveNewest(bool complete, bool confidence);
   void handOut(EvaluationUpdate* update);
   void onResult(const EvaluationResult& result);
   bool waitForTheRest(const std::function<bool()>& stopped,
