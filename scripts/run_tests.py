@@ -320,6 +320,10 @@ def main():
             print(program.name)
         return 0 if programs else 1
 
+    # In the background a shell makes its children ignore SIGINT, which what they start inherits:
+    # neither our own stopping nor the tests of interrupts would work.
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     # A machine whose own name does not resolve runs the tests all the same; what ROS writes beside
     # its logs stays in the build.
     if "ROS_IP" not in os.environ:
