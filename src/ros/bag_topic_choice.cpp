@@ -33,12 +33,6 @@ const std::set<std::string>& poseTypes() {
   return kTypes;
 }
 
-bool isDepthEncoding(const std::string& encoding) {
-  namespace encodings = sensor_msgs::image_encodings;
-  return encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16 ||
-         encoding == encodings::TYPE_32FC1;
-}
-
 enum class Content { kNone, kImage, kDepth };
 
 /// What the first message of a topic says.
@@ -58,6 +52,11 @@ Content contentOf(BagSource* bag, const BagTopic& topic) {
     });
   }
   return content;
+}
+
+std::string parentOf(const std::string& topic) {
+  const std::size_t slash = topic.rfind('/');
+  return slash == std::string::npos ? "" : topic.substr(0, slash);
 }
 
 /// Finds topics of one bag, with words for what went wrong.
@@ -116,6 +115,12 @@ class Chooser {
         names.push_back(topic.name);
       }
     }
+    // What a transport made of another candidate (/depth/compressedDepth of /depth) shows the same.
+    const std::set<std::string> found(names.begin(), names.end());
+    names.erase(
+        std::remove_if(names.begin(), names.end(),
+                       [&](const std::string& name) { return found.count(parentOf(name)) != 0; }),
+        names.end());
     return names;
   }
 
@@ -129,11 +134,6 @@ class Chooser {
   BagSource* bag_;
   const std::vector<BagTopic>& topics_;
 };
-
-std::string parentOf(const std::string& topic) {
-  const std::size_t slash = topic.rfind('/');
-  return slash == std::string::npos ? "" : topic.substr(0, slash);
-}
 
 /// Beside its images, as image_transport expects it.
 std::string cameraInfoOf(const Chooser& chooser, const std::string& image_topic) {

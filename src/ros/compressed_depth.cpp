@@ -79,10 +79,13 @@ cv::Mat metresOf(const cv::Mat& stored, const Quantisation& quantisation) {
 
 }  // namespace
 
-bool isCompressedDepth(const std::string& format) {
-  const std::string encoding = encodingOf(format);
-  return hasHeader(format) || encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16 ||
+bool isDepthEncoding(const std::string& encoding) {
+  return encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16 ||
          encoding == encodings::TYPE_32FC1;
+}
+
+bool isCompressedDepth(const std::string& format) {
+  return hasHeader(format) || isDepthEncoding(encodingOf(format));
 }
 
 DepthMap toDepthMap(const sensor_msgs::CompressedImage& message, double depth_factor) {

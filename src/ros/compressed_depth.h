@@ -9,6 +9,9 @@
 
 namespace evolin::ros_shell {
 
+/// Whether an image of this encoding holds depth: 16UC1, mono16 or 32FC1.
+bool isDepthEncoding(const std::string& encoding);
+
 /// Whether CompressedImage::format says that depth is inside: the transport's own format, or PNG of
 /// an encoding that depth has ("16UC1; png compressed").
 bool isCompressedDepth(const std::string& format);

@@ -238,8 +238,12 @@ std::pair<CoverageCounts, bool> EvaluationSession::coverage() const {
 }
 
 void EvaluationSession::saveChanges() {
-  // Before the look: the final report may be on its way, with all that has come.
-  const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
+  // Before the look: the final report may be on its way, with all that has come. What comes while
+  // another writes waits for the next period, so that no thread of the manager stands still.
+  const std::unique_lock<std::mutex> one_at_a_time(save_mutex_, std::try_to_lock);
+  if (!one_at_a_time) {
+    return;
+  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (inputs_ == saved_inputs_) {
@@ -266,8 +270,10 @@ void EvaluationSession::saveWhenIdle() {
   }
   if (finished) {
     try {
-      const std::lock_guard<std::mutex> one_at_a_time(save_mutex_);
-      writeFinished();
+      const std::unique_lock<std::mutex> one_at_a_time(save_mutex_, std::try_to_lock);
+      if (one_at_a_time) {
+        writeFinished();
+      }
     } catch (const std::exception& error) {
       if (errors_.due()) {
         log_.error(error.what());

@@ -135,6 +135,9 @@ class EvaluationSession {
       }
       metrics_.publish(update, last_header_);
       pass = evaluator_.pass();
+      if (header != nullptr) {
+        last_input_ = ros::WallTime::now();  // a long add is no silence
+      }
     }
     if (header != nullptr) {
       keepParameters(pass);

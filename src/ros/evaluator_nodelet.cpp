@@ -10,7 +10,6 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 #include <utility>
@@ -105,7 +104,6 @@ class EvaluatorNodelet : public SafeNodelet {
 
   /// All inputs share the single-threaded queue, so that each stays in its own order.
   void subscribe() {
-    const std::lock_guard<std::mutex> lock(subscribe_mutex_);
     ros::NodeHandle& handle = getNodeHandle();
     expect(topics::kLines, "evolin_ros/LineArray", "Remap 'lines' to the front-end's topic.");
     expect(topics::kGroundTruthLines, "evolin_ros/LineArray",
@@ -142,7 +140,6 @@ class EvaluatorNodelet : public SafeNodelet {
                                      void (StreamEvaluator::*leave_out)(Stamp)) {
     const boost::function<void(const std_msgs::HeaderConstPtr&)> on_header =
         [this, leave_out](const std_msgs::HeaderConstPtr& header) {
-          waitForSubscriptions();
           session_->leaveOut(
               [&](StreamEvaluator* evaluator) { (evaluator->*leave_out)(fromRos(header->stamp)); });
         };
@@ -242,19 +239,14 @@ class EvaluatorNodelet : public SafeNodelet {
     }
   }
 
-  /// Messages come as soon as the first subscription stands: they wait until all stand.
-  void waitForSubscriptions() { const std::lock_guard<std::mutex> lock(subscribe_mutex_); }
-
   template <class Add>
   void takeBeside(const std::string& topic, const Add& add) {
-    waitForSubscriptions();
     tell(getNodeHandle().resolveName(topic), session_->takeBeside(add));
   }
 
   template <class Add>
   void take(const std::string& topic, const ros::Subscriber& subscriber,
             const std_msgs::Header& header, const Add& add) {
-    waitForSubscriptions();
     const std::string name = getNodeHandle().resolveName(topic);
     const unsigned publishers = subscriber.getNumPublishers();
     watchdog_->heard(name);
@@ -337,6 +329,7 @@ class EvaluatorNodelet : public SafeNodelet {
 
   bool onReset(Trigger::Request& /*request*/, Trigger::Response& response) {
     session_->reset();
+    lines_heard_ = false;
     matches_heard_ = false;
     response.success = true;
     response.message = "all figures are forgotten; the next message begins pass 1";
@@ -374,7 +367,6 @@ class EvaluatorNodelet : public SafeNodelet {
   std::unique_ptr<EvaluationSession> session_;
   std::unique_ptr<TopicWatchdog> watchdog_;
   std::unique_ptr<Health> health_;
-  std::mutex subscribe_mutex_;  ///< held while what follows, up to the timers, is being set
   std::unique_ptr<MotionInputs> motion_inputs_;
   ros::Subscriber lines_;
   ros::Subscriber ground_truth_;

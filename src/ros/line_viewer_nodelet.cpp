@@ -17,6 +17,7 @@
 
 #include "conversions.h"
 #include "evolin_ros/base/error.h"
+#include "health.h"
 #include "node_parameters.h"
 #include "safe_nodelet.h"
 #include "topic_watchdog.h"
@@ -32,7 +33,12 @@ namespace evolin::ros_shell {
 class LineViewerNodelet : public SafeNodelet {
  public:
   LineViewerNodelet() = default;
-  ~LineViewerNodelet() override { unloadLast(); }
+  ~LineViewerNodelet() override {
+    if (health_) {
+      health_->stop();
+    }
+    unloadLast();
+  }
   LineViewerNodelet(const LineViewerNodelet&) = delete;
   LineViewerNodelet& operator=(const LineViewerNodelet&) = delete;
   LineViewerNodelet(LineViewerNodelet&&) = delete;
@@ -48,6 +54,8 @@ class LineViewerNodelet : public SafeNodelet {
     startAfresh();
     image_transport_ = std::make_unique<image_transport::ImageTransport>(handle);
     watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), options_.warn_after);
+    health_ = std::make_unique<Health>(getName(), options_.health);
+    health_->start(getMTNodeHandle(), getPrivateNodeHandle());
     NODELET_INFO("shows %s and %s on %s and %s, while somebody looks",
                  handle.resolveName(topics::kLines).c_str(),
                  handle.resolveName(topics::kGroundTruthLines).c_str(),
@@ -83,7 +91,7 @@ class LineViewerNodelet : public SafeNodelet {
     expect(topics::kImage, "sensor_msgs/Image", "Remap 'image' to the camera's topic.");
     expect(topics::kLines, "evolin_ros/LineArray", "Remap 'lines' to the front-end's topic.");
     listen<evolin_ros::LineArray>(topics::kLines, [this](const auto& message) {
-      watchdog_->heard(getNodeHandle().resolveName(topics::kLines));
+      heard(topics::kLines);
       show(joiner_->addLines(message));
     });
     ground_truth_ = listen<evolin_ros::LineArray>(
@@ -100,7 +108,7 @@ class LineViewerNodelet : public SafeNodelet {
     image_ = image_transport_->subscribe(
         topics::kImage, static_cast<std::uint32_t>(options_.queue_size),
         [this](const sensor_msgs::ImageConstPtr& message) {
-          watchdog_->heard(getNodeHandle().resolveName(topics::kImage));
+          heard(topics::kImage);
           refresh();
           show(joiner_->addImage(message));
         },
@@ -114,7 +122,7 @@ class LineViewerNodelet : public SafeNodelet {
       // The evaluator was reset, or time jumped back.
       if (numbers_->take(*message)) {
         frames_->clear();
-        anew_ = true;
+        takeMarkersAway(message->header);
       }
     });
     listen<evolin_ros::HeatmapMetrics>(topics::kHeatmapCumulative,
@@ -147,8 +155,10 @@ class LineViewerNodelet : public SafeNodelet {
   }
 
   void unsubscribe() {
-    watchdog_->forget(getNodeHandle().resolveName(topics::kImage));
-    watchdog_->forget(getNodeHandle().resolveName(topics::kLines));
+    for (const char* topic : {topics::kImage, topics::kLines}) {
+      watchdog_->forget(getNodeHandle().resolveName(topic));
+      health_->forget(getNodeHandle().resolveName(topic));
+    }
     idle_timer_.stop();
     image_.shutdown();
     image_ = image_transport::Subscriber();
@@ -161,6 +171,12 @@ class LineViewerNodelet : public SafeNodelet {
 
   void expect(const char* topic, const std::string& type, const std::string& hint) {
     watchdog_->expect(getNodeHandle().resolveName(topic), type, hint);
+    health_->expect(getNodeHandle().resolveName(topic));
+  }
+
+  void heard(const char* topic) {
+    watchdog_->heard(getNodeHandle().resolveName(topic));
+    health_->heard(getNodeHandle().resolveName(topic));
   }
 
   /// Before every message. What was kept before somebody looked again is of long ago.
@@ -180,6 +196,7 @@ class LineViewerNodelet : public SafeNodelet {
   }
 
   void startAfresh() {
+    not_shown_ = 0;
     joiner_ = std::make_unique<ViewJoiner>(static_cast<std::size_t>(options_.queue_size),
                                            static_cast<std::size_t>(options_.patience));
     frames_ = std::make_unique<ViewFrames>(options_.frame);
@@ -210,14 +227,19 @@ class LineViewerNodelet : public SafeNodelet {
   void show(const ViewJoiner::Result& result) {
     if (!result.problem.empty()) {
       const UnpairedParts& unpaired = joiner_->unpaired();
+      health_->dropped("not shown", unpaired.sum() - std::exchange(not_shown_, unpaired.sum()));
       warn(result.problem + "; so far not shown: " + std::to_string(unpaired.images) + " images, " +
            std::to_string(unpaired.lines) + " lines, " + std::to_string(unpaired.ground_truths) +
            " ground truths, " + std::to_string(unpaired.matches) + " matches");
     }
     for (const ViewParts& parts : result.frames) {
+      const ros::WallTime begin = ros::WallTime::now();
       try {
         publish(parts);
+        const double seconds = (ros::WallTime::now() - begin).toSec();
+        health_->finished(seconds, seconds);
       } catch (const std::exception& error) {
+        health_->dropped("unusable");
         warn("no picture of the frame at " + formatStamp(fromRos(parts.lines->header.stamp)) +
              ": " + error.what());
       }
@@ -243,6 +265,14 @@ class LineViewerNodelet : public SafeNodelet {
     }
   }
 
+  /// At once: where nothing is played, no next frame would.
+  void takeMarkersAway(const std_msgs::Header& header) {
+    if (markers_.getNumSubscribers() > 0) {
+      markers_.publish(noMarkers(header));
+    }
+    anew_ = true;
+  }
+
   void warn(const std::string& text) {
     if (warnings_.due()) {
       NODELET_WARN("%s", text.c_str());
@@ -252,12 +282,14 @@ class LineViewerNodelet : public SafeNodelet {
   ViewerOptions options_;
   WallThrottle warnings_;
   std::unique_ptr<TopicWatchdog> watchdog_;
+  std::unique_ptr<Health> health_;
   // Of the callbacks, which come one at a time.
   std::unique_ptr<ViewJoiner> joiner_;
   std::unique_ptr<ViewFrames> frames_;
   std::unique_ptr<ViewNumbers> numbers_;
   std::optional<Camera> camera_;
   std::string camera_problem_;  ///< of the newest camera_info, when it cannot be used
+  std::size_t not_shown_ = 0;   ///< parts without the others, as far as /diagnostics was told
   bool anew_ = true;            ///< the next markers are the first of a pass
   ros::WallTime last_part_;
   std::atomic<bool> afresh_{false};  ///< somebody looks again

@@ -22,13 +22,7 @@ class MarkerMaker {
     header_.frame_id = withoutLeadingSlash(header.frame_id);
   }
 
-  void clear() {
-    Marker marker;
-    marker.header = header_;
-    marker.action = Marker::DELETEALL;
-    marker.pose.orientation.w = 1;
-    array_.markers.push_back(marker);
-  }
+  void clear() { array_ = noMarkers(header_); }
 
   void begin(const std::string& name, const Colour& colour) {
     marker_ = Marker();
@@ -151,6 +145,16 @@ visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const 
   maker.end();
   addTrails(frame, options.trails, &maker);
   return maker.take();
+}
+
+visualization_msgs::MarkerArray noMarkers(const std_msgs::Header& header) {
+  visualization_msgs::MarkerArray array;
+  Marker& marker = array.markers.emplace_back();
+  marker.header = header;
+  marker.header.frame_id = withoutLeadingSlash(header.frame_id);
+  marker.pose.orientation.w = 1;
+  marker.action = Marker::DELETEALL;
+  return array;
 }
 
 }  // namespace evolin::ros_shell

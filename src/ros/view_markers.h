@@ -20,4 +20,7 @@ visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const 
                                           double distance, const EvaluatedFrame& frame,
                                           const ViewOptions& options, bool anew);
 
+/// Takes all markers of the topic away. The frame's leading slash is taken away.
+visualization_msgs::MarkerArray noMarkers(const std_msgs::Header& header);
+
 }  // namespace evolin::ros_shell

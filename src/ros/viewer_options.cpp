@@ -40,6 +40,7 @@ ViewerOptions readViewerOptions(const YAML::Node& parameters, const std::string&
   reader.read("patience", &options.patience, 0, 1000);
   reader.read("image_transport", &options.image_transport);
   reader.read("warn_after", &options.warn_after, 0, 1e6);
+  options.health = readHealthLimits(&reader, owner);
   reader.finish();
   options.frame.protocol = parseProtocol(protocol);
   options.frame.trails_from = trails_from == "matches" ? TrailsFrom::kMatches

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "evolin_ros/drawing/evaluation_view.h"
+#include "health.h"
 #include "view_frame.h"
 
 namespace evolin::ros_shell {
@@ -18,6 +19,7 @@ struct ViewerOptions {
   int patience = 3;           ///< later frames until one is shown without what it lacks
   std::string image_transport = "raw";
   double warn_after = 3;  ///< s, 0: never
+  HealthLimits health;
 };
 
 /// Throws ConfigError naming the parameter, its value and what is accepted. `owner` stands at the

@@ -249,6 +249,7 @@ TEST(SegmentFit, FindsTheKnownEdgesOfTheSyntheticRoom) {
     const std::string kind = bleeds ? "bleeding" : "exact";
     RecordProperty(kind + "_fitted_median", std::to_string(fitted.quantile(0.5)));
     RecordProperty(kind + "_fitted_90_percent", std::to_string(fitted.quantile(0.9)));
+    RecordProperty(kind + "_endpoints_median", std::to_string(by_endpoints.quantile(0.5)));
     RecordProperty(kind + "_endpoints_90_percent", std::to_string(by_endpoints.quantile(0.9)));
     EXPECT_LT(fitted.quantile(0.5), bleeds ? 5e-3 : 5e-4) << kind;
     EXPECT_LT(fitted.quantile(0.9), bleeds ? 0.02 : 0.006) << kind;

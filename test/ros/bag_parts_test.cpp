@@ -244,6 +244,22 @@ TEST_F(BagPartsTest, CompressedDepthIsRead) {
   }
 }
 
+TEST_F(BagPartsTest, WhatATransportMadeOfATopicIsNoSecondTopic) {
+  rosbag::Bag bag(path("both.bag").string(), rosbag::bagmode::Write);
+  const cv::Mat stored(480, 640, CV_16UC1, cv::Scalar(1500));
+  const std_msgs::Header header = headerOf(0);
+  const cv_bridge::CvImage depth(header, "16UC1", stored);
+  sensor_msgs::CompressedImage compressed;
+  compressed.header = header;
+  compressed.format = "16UC1; png compressed ";
+  cv::imencode(".png", stored, compressed.data);
+  bag.write("/camera/image", header.stamp, *imageOf(0, "bgr8"));
+  bag.write("/camera/depth", header.stamp, *depth.toImageMsg());
+  bag.write("/camera/depth/compressedDepth", header.stamp, compressed);
+  bag.close();
+  EXPECT_EQ(readAll({path("both.bag")}, BagPartsOptions()).depths.size(), 1U);
+}
+
 TEST_F(BagPartsTest, CompressedDepthThatCannotBeReadIsNamed) {
   std::vector<std::uint8_t> grey;
   cv::imencode(".png", cv::Mat(4, 4, CV_8UC1, cv::Scalar(9)), grey);

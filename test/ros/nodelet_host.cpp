@@ -1,7 +1,7 @@
 // A process that hosts our nodelets as a manager does, for tests that run under sanitizers: 'host
 // cycle N' loads and unloads all of them N times in a stream; 'host stream FOLDER' evaluates one
 // until it is interrupted; 'host address ENCODING' sees whether an image reaches a plug-in
-// uncopied; 'host start late' whether a nodelet that starts slowly misses anything.
+// uncopied; 'host start' whether a nodelet that starts slowly misses anything.
 #include <cv_bridge/cv_bridge.h>
 #include <nodelet/loader.h>
 #include <ros/ros.h>
@@ -27,6 +27,7 @@
 #include "evolin_ros/LineArray.h"
 #include "evolin_ros/dataset/csv.h"
 #include "evolin_ros/dataset/stamps_file.h"
+#include "test/ros/foreign_lines.h"
 #include "test/ros/slow_start.h"
 #include "test/support/drawn_sequence.h"
 
@@ -78,6 +79,7 @@ class Camera {
         depth_(handle_.advertise<sensor_msgs::Image>("depth", 0)),
         cloud_(handle_.advertise<sensor_msgs::PointCloud>("linefeature", 0)),
         marker_(handle_.advertise<visualization_msgs::Marker>("marker", 0)),
+        foreign_lines_(&handle_),
         thread_([this] { run(); }) {}
   ~Camera() {
     stop_ = true;
@@ -112,6 +114,7 @@ class Camera {
                          .toImageMsg());
       cloud_.publish(boost::make_shared<sensor_msgs::PointCloud>(lineCloud(header)));
       marker_.publish(boost::make_shared<visualization_msgs::Marker>(lineMarker(header)));
+      foreign_lines_.publish(header);
       next += std::chrono::milliseconds(10);
       std::this_thread::sleep_until(next);
     }
@@ -124,6 +127,7 @@ class Camera {
   ros::Publisher depth_;
   ros::Publisher cloud_;
   ros::Publisher marker_;
+  ForeignLines foreign_lines_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
@@ -158,6 +162,10 @@ std::vector<Nodelet> everyNodelet() {
                       "PointCloudLines",
                       {{"/lines", "/cloud/lines"}, {"/matches", "/cloud/matches"}}});
   nodelets.push_back({"marker_adapter", "MarkerLines", {{"/lines", "/marker/lines"}}});
+  if (kHasOpencvApps) {
+    nodelets.push_back(
+        {"opencv_apps_adapter", "OpencvAppsLines", {{"/lines", "/opencv_apps/lines"}}});
+  }
   return nodelets;
 }
 
@@ -175,7 +183,9 @@ void setParameters(const std::string& folder) {
   for (const char* method : {"detector", "associator"}) {
     ros::param::set(std::string("/") + method + "/lazy", false);
     ros::param::set(std::string("/") + method + "/realtime", true);
-    ros::param::set(std::string("/") + method + "/diagnostic_period", 0.05);
+  }
+  for (const Nodelet& nodelet : everyNodelet()) {
+    ros::param::set("/" + nodelet.name + "/diagnostic_period", 0.05);
   }
 }
 
@@ -279,18 +289,18 @@ int address(const std::string& encoding) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "nodelet_host");
-  const std::string verb = argc > 2 ? argv[1] : "";
+  const std::string verb = argc > 1 ? argv[1] : "";
   try {
     if (verb == "cycle" && argc > 3) {
       return evolin::test::cycle(std::stoi(argv[2]), argv[3]);
     }
-    if (verb == "address") {
+    if (verb == "address" && argc > 2) {
       return evolin::test::address(argv[2]);
     }
     if (verb == "start") {
       return evolin::test::slowStart();
     }
-    if (verb == "stream") {
+    if (verb == "stream" && argc > 2) {
       return evolin::test::stream(argv[2]);
     }
   } catch (const std::exception& error) {
@@ -299,6 +309,6 @@ int main(int argc, char** argv) {
   }
   std::fprintf(
       stderr,
-      "usage: nodelet_host cycle ROUNDS FOLDER | stream FOLDER | address ENCODING | start late\n");
+      "usage: nodelet_host cycle ROUNDS FOLDER | stream FOLDER | address ENCODING | start\n");
   return 2;
 }

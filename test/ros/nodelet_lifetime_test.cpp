@@ -94,7 +94,7 @@ TEST_F(NodeletLifetime, APlugInGetsThePixelsOfTheMessageThemselves) {
 }
 
 TEST_F(NodeletLifetime, WhatComesWhileANodeletStartsIsNotLost) {
-  Process process({host(), "start", "late"});
+  Process process({host(), "start"});
   EXPECT_EQ(process.wait(60), std::optional<int>(0)) << "3: does not load; 4: something is lost";
 }
 

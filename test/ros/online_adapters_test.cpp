@@ -20,6 +20,7 @@
 #include "evolin_ros/dataset/synthetic/synthetic_sequence.h"
 #include "evolin_ros/geometry/image_view.h"
 #include "marker_segments.h"
+#include "online_diagnostics.h"
 #include "online_stream.h"
 
 namespace evolin::test {
@@ -159,6 +160,25 @@ TEST(OnlineAdapters, CloudsOfAnotherKindAreRefusedByName) {
   ASSERT_TRUE(adapter.lines().waitForCount(1));
   EXPECT_EQ(adapter.lines().messages()[0].lines.size(), 1U);
   EXPECT_EQ(adapter.lines().messages()[0].header.frame_id, "cam");
+}
+
+TEST(OnlineAdapters, WhatIsRefusedStandsOnDiagnostics) {
+  using Status = DiagnosticsReader::Status;
+  Adapter<sensor_msgs::PointCloud> adapter("PointCloudLines", "linefeature");
+  adapter.set("camera", "tum_fr1");
+  adapter.set("diagnostic_period", 0.1);
+  const DiagnosticsReader diagnostics(adapter.space() + "/adapter");
+  ASSERT_NO_FATAL_FAILURE(adapter.start());
+  sensor_msgs::PointCloud points = cloudOf(1, {1});
+  points.channels.resize(5);
+  adapter.send(points);
+  adapter.send(cloudOf(2, {1}));
+  EXPECT_TRUE(diagnostics.waitFor("drops", [](const Status& status) {
+    return status.level == Status::ERROR && DiagnosticsReader::valueOf(status, "refused") == "1";
+  }));
+  EXPECT_TRUE(diagnostics.waitFor("latency", [](const Status& status) {
+    return DiagnosticsReader::valueOf(status, "results") == "1";
+  }));
 }
 
 TEST(OnlineAdapters, ParametersAreChecked) {

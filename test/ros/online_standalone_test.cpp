@@ -8,6 +8,7 @@
 #include "conversions.h"
 #include "evolin_ros/AssociationMetrics.h"
 #include "evolin_ros/DetectionMetrics.h"
+#include "online_diagnostics.h"
 #include "online_stream.h"
 #include "test/support/drawn_sequence.h"
 
@@ -92,6 +93,19 @@ std::vector<std::string> plainNode(const std::string& name, const std::string& t
 TEST(OnlineStandalone, NodeletsWorkAlone) { expectWholeChain(standalone); }
 
 TEST(OnlineStandalone, PlainNodesWork) { expectWholeChain(plainNode); }
+
+/// The adapters and viewers, which are no part of the chain.
+TEST(OnlineStandalone, EveryPlainNodeRunsUntilItIsInterrupted) {
+  const std::string space = testNamespace();
+  for (const std::string program :
+       {"line_viewer_node", "lines_3d_node", "marker_lines_node", "point_cloud_lines_node"}) {
+    const DiagnosticsReader diagnostics(space + "/" + program);
+    Process process({"rosrun", "evolin_ros", program, "__name:=" + program, "__ns:=" + space});
+    EXPECT_TRUE(diagnostics.waitFor("inputs", [](const auto&) { return true; })) << program;
+    process.send(SIGINT);
+    EXPECT_EQ(process.wait(kPatience), std::optional<int>(0)) << program;
+  }
+}
 
 TEST(OnlineStandalone, APlainNodeThatRefusesEndsWithAnError) {
   ros::param::set(testNamespace() + "/detector/detector", "hough_q");

@@ -15,6 +15,7 @@
 #include "adapter_camera.h"
 #include "conversions.h"
 #include "evolin_ros/base/parameters.h"
+#include "health.h"
 #include "safe_nodelet.h"
 #include "topic_watchdog.h"
 #include "topics.h"
@@ -31,13 +32,15 @@ class CameraAdapter : public SafeNodelet {
   /// Publishes what comes of a message; what it throws refuses the message.
   virtual void convert(const Message& message, const AdapterView& view) = 0;
 
-  /// Reads ~camera, ~frame_id, ~source, ~queue_size and ~warn_after.
+  /// Reads ~camera, ~frame_id, ~source, ~queue_size, ~warn_after, ~diagnostics and
+  /// ~diagnostic_period.
   void readCommon(ParameterReader* reader) {
     reader->read("camera", &camera_options_.camera);
     reader->read("frame_id", &camera_options_.frame_id);
     reader->read("source", &source_);
     reader->read("queue_size", &queue_size_, 1, 100000);
     reader->read("warn_after", &warn_after_, 0, 1e6);
+    health_ = std::make_unique<Health>(getName(), readHealthLimits(reader, getName()));
   }
 
   /// Subscribes to `topic` and the camera, advertises the lines.
@@ -56,6 +59,8 @@ class CameraAdapter : public SafeNodelet {
     }
     topic_ = handle.resolveName(topic);
     watchdog_->expect(topic_, ros::message_traits::datatype<Message>(), hint);
+    health_->expect(topic_);
+    health_->start(getMTNodeHandle(), getPrivateNodeHandle());
     input_ = handle.subscribe(topic, kResultQueue, &CameraAdapter::onMessage, this);
     NODELET_INFO("lines of %s as '%s', waiting for it%s", topic_.c_str(), source_.c_str(),
                  camera_->isAwaited() ? " and for camera_info" : "");
@@ -63,6 +68,9 @@ class CameraAdapter : public SafeNodelet {
 
   /// First in the destructor of a class that derives: convert() is not called any more.
   void end() {
+    if (health_) {
+      health_->stop();
+    }
     input_.shutdown();
     if (camera_) {
       camera_->stop();
@@ -91,6 +99,7 @@ class CameraAdapter : public SafeNodelet {
  private:
   void onMessage(const MessagePtr& message) {
     watchdog_->heard(topic_);
+    health_->heard(topic_);
     if (camera_->view() != nullptr) {
       take(*message);
       return;
@@ -99,6 +108,7 @@ class CameraAdapter : public SafeNodelet {
     if (held_.size() > static_cast<std::size_t>(queue_size_)) {
       held_.pop_front();
       ++lost_;
+      health_->dropped("before the camera was known");
       if (warnings_.due()) {
         NODELET_WARN(
             "%s: there is no usable camera on %s yet; of the messages the newest %d are held back, "
@@ -131,10 +141,14 @@ class CameraAdapter : public SafeNodelet {
   }
 
   void take(const Message& message) {
+    const ros::WallTime begin = ros::WallTime::now();
     try {
       convert(message, *camera_->view());
+      const double seconds = (ros::WallTime::now() - begin).toSec();
+      health_->finished(seconds, seconds);
     } catch (const std::exception& error) {
       ++refused_;
+      health_->dropped("refused");
       if (errors_.due()) {
         NODELET_ERROR("%s: message at %.6f refused (%zu so far): %s", topic_.c_str(),
                       message.header.stamp.toSec(), refused_, error.what());
@@ -153,6 +167,7 @@ class CameraAdapter : public SafeNodelet {
   WallThrottle errors_;
   std::string camera_problem_;  ///< of the newest camera_info that could not be used
   std::unique_ptr<TopicWatchdog> watchdog_;
+  std::unique_ptr<Health> health_;
   std::unique_ptr<AdapterCamera> camera_;
   ros::Publisher lines_;
   ros::Subscriber input_;

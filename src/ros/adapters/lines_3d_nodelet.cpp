@@ -21,12 +21,14 @@
 #include "evolin_ros/geometry/lens_distortion.h"
 #include "evolin_ros/geometry/segment_fit.h"
 #include "evolin_ros/metrics/line_verdicts.h"
+#include "health.h"
 #include "node_parameters.h"
 #include "pose_source.h"
 #include "safe_nodelet.h"
 #include "spatial_markers.h"
 #include "topic_watchdog.h"
 #include "topics.h"
+#include "view_markers.h"
 #include "wall_throttle.h"
 
 namespace evolin::ros_shell {
@@ -46,11 +48,13 @@ class Lines3dNodelet : public SafeNodelet {
     int queue_size = kImageQueue;
     bool lazy = true;
     double warn_after = 3;
+    HealthLimits health;
   };
 
   /// The parts of a frame that have come.
   struct Entry {
     std::optional<LineSet> lines;
+    ros::WallTime lines_came;
     std::optional<LineSet> ground_truth;
     std::optional<Pose> pose;
   };
@@ -63,6 +67,8 @@ class Lines3dNodelet : public SafeNodelet {
     depth_.emplace(fromSeconds(options_.max_time_difference),
                    static_cast<std::size_t>(options_.queue_size));
     watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), options_.warn_after);
+    health_ = std::make_unique<Health>(getName(), options_.health);
+    health_->start(getMTNodeHandle(), getPrivateNodeHandle());
     NODELET_INFO("waiting for %s and %s%s", name(topics::kLines).c_str(),
                  name(topics::kDepth).c_str(),
                  options_.lazy ? " (subscribed once somebody listens to the markers)" : "");
@@ -94,6 +100,7 @@ class Lines3dNodelet : public SafeNodelet {
     reader.read("queue_size", &options_.queue_size, 1, 100000);
     reader.read("lazy", &options_.lazy);
     reader.read("warn_after", &options_.warn_after, 0, 1e6);
+    options_.health = readHealthLimits(&reader, getName());
     reader.finish();
     options_.setting.distance =
         distance == "orthogonal" ? LineDistance::kOrthogonal : LineDistance::kStructural;
@@ -117,11 +124,13 @@ class Lines3dNodelet : public SafeNodelet {
            {topics::kLines, topics::kDepth, topics::kCameraInfo, topics::kGroundTruthLines}) {
         watchdog_->forget(name(topic));
       }
+      health_->forget(name(topics::kLines));
     }
   }
 
   void subscribe() {
     ros::NodeHandle& handle = getNodeHandle();
+    health_->expect(name(topics::kLines));
     watchdog_->expect(name(topics::kLines), "evolin_ros/LineArray", "Remap 'lines'.");
     watchdog_->expect(name(topics::kDepth), "sensor_msgs/Image", "Remap 'depth'.");
     watchdog_->expect(name(topics::kCameraInfo), "sensor_msgs/CameraInfo", "Remap 'camera_info'.");
@@ -149,6 +158,7 @@ class Lines3dNodelet : public SafeNodelet {
 
   void onLines(const evolin_ros::LineArrayConstPtr& message) {
     watchdog_->heard(name(topics::kLines));
+    health_->heard(name(topics::kLines));
     const LineSet set = fromMessage(*message);
     if (newest_ && set.stamp < *newest_) {
       NODELET_INFO("time jumped back to %.6f: markers and waiting frames are taken away",
@@ -156,7 +166,9 @@ class Lines3dNodelet : public SafeNodelet {
       forget(message->header);
     }
     newest_ = set.stamp;
-    entries_[set.stamp].lines = set;
+    Entry& entry = entries_[set.stamp];
+    entry.lines = set;
+    entry.lines_came = ros::WallTime::now();
     if (tf_) {
       takePoses([&] { return tf_->ask(set.stamp, set.frame_id); });
     }
@@ -244,11 +256,16 @@ class Lines3dNodelet : public SafeNodelet {
           drawWhenComplete(entry->first, entry->second) ? entries_.erase(entry) : std::next(entry);
     }
     while (entries_.size() > static_cast<std::size_t>(options_.queue_size)) {
-      ++given_up_;
-      warn("frame " + formatStamp(entries_.begin()->first) + " given up (" +
-           std::to_string(given_up_) + " so far): " + whatIsMissing(entries_.begin()->second));
+      giveUp(entries_.begin()->first, whatIsMissing(entries_.begin()->second));
       entries_.erase(entries_.begin());
     }
+  }
+
+  void giveUp(Stamp stamp, const std::string& why) {
+    ++given_up_;
+    health_->dropped("given up");
+    warn("frame " + formatStamp(stamp) + " given up (" + std::to_string(given_up_) +
+         " so far): " + why);
   }
 
   std::string whatIsMissing(const Entry& entry) const {
@@ -275,16 +292,18 @@ class Lines3dNodelet : public SafeNodelet {
       case Lookup::kNotYet:
         return false;
       case Lookup::kNever:
-        ++given_up_;
-        warn("frame " + formatStamp(stamp) + " given up (" + std::to_string(given_up_) +
-             " so far): no depth within ~max_time_difference");
+        giveUp(stamp, "no depth within ~max_time_difference");
         return true;
       case Lookup::kFound:
         break;
     }
+    const ros::WallTime begin = ros::WallTime::now();
     try {
       draw(entry, *depth);
+      const ros::WallTime end = ros::WallTime::now();
+      health_->finished((end - entry.lines_came).toSec(), (end - begin).toSec());
     } catch (const std::exception& error) {
+      health_->dropped("unusable");
       warn("no markers for frame " + formatStamp(stamp) + ": " + error.what());
     }
     return true;
@@ -342,6 +361,7 @@ class Lines3dNodelet : public SafeNodelet {
   bool distortion_told_ = false;
   WallThrottle warnings_;
   std::unique_ptr<TopicWatchdog> watchdog_;
+  std::unique_ptr<Health> health_;
   std::mutex connect_mutex_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Publisher markers_;

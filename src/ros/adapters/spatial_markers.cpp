@@ -48,14 +48,4 @@ visualization_msgs::MarkerArray markersOf(const std_msgs::Header& header,
   return array;
 }
 
-visualization_msgs::MarkerArray noMarkers(const std_msgs::Header& header) {
-  visualization_msgs::MarkerArray array;
-  visualization_msgs::Marker marker;
-  marker.header = header;
-  marker.pose.orientation.w = 1;
-  marker.action = visualization_msgs::Marker::DELETEALL;
-  array.markers.push_back(marker);
-  return array;
-}
-
 }  // namespace evolin::ros_shell

@@ -27,7 +27,4 @@ std::vector<SegmentGroup> emptyGroups();
 visualization_msgs::MarkerArray markersOf(const std_msgs::Header& header,
                                           const std::vector<SegmentGroup>& groups, double width);
 
-/// Takes all markers of the topic away.
-visualization_msgs::MarkerArray noMarkers(const std_msgs::Header& header);
-
 }  // namespace evolin::ros_shell

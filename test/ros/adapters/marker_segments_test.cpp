@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "spatial_markers.h"
+#include "view_markers.h"
 #include "test/support/expect_error.h"
 
 namespace evolin::ros_shell {
