@@ -7,6 +7,7 @@
 #include "evolin_ros/association/lbd_binary_associator.h"
 #include "evolin_ros/association/lbd_binary_descriptor.h"
 #include "evolin_ros/association/lbd_descriptor.h"
+#include "evolin_ros/association/opencv_lbd_binary.h"
 #include "evolin_ros/detection/hough_p.h"
 #include "evolin_ros/detection/opencv_lsd.h"
 
@@ -35,14 +36,23 @@ void describe(benchmark::State& state) {
 }
 
 void describeBinary(benchmark::State& state) {
-  if (!whyNoLbdBinary().empty()) {
-    state.SkipWithError(whyNoLbdBinary().c_str());
+  const Frame frame = benchmark_frames::load().front();
+  const LineSegments lines = detectLines(frame);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(describeLbdBinary(frame.image, lines));
+  }
+  state.counters["lines"] = static_cast<double>(lines.size());
+}
+
+void describeOpenCvBinary(benchmark::State& state) {
+  if (!whyNoOpenCvLbdBinary().empty()) {
+    state.SkipWithError(whyNoOpenCvLbdBinary().c_str());
     return;
   }
   const Frame frame = benchmark_frames::load().front();
   const LineSegments lines = detectLines(frame);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(describeLbdBinary(frame.image, lines));
+    benchmark::DoNotOptimize(describeOpenCvLbdBinary(frame.image, lines));
   }
   state.counters["lines"] = static_cast<double>(lines.size());
 }
@@ -52,21 +62,17 @@ void match(benchmark::State& state) {
   const cv::Mat first = describeLbd(frames[0].image, detectLines(frames[0]));
   const cv::Mat second = describeLbd(frames[1].image, detectLines(frames[1]));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(matchDescriptors(first, second, true));
+    benchmark::DoNotOptimize(matchDescriptors(first, second, MatchingRules()));
   }
   state.counters["lines"] = static_cast<double>(first.rows);
 }
 
 void matchBinary(benchmark::State& state) {
-  if (!whyNoLbdBinary().empty()) {
-    state.SkipWithError(whyNoLbdBinary().c_str());
-    return;
-  }
   const std::vector<Frame> frames = benchmark_frames::load();
   const BinaryDescriptors first = describeLbdBinary(frames[0].image, detectLines(frames[0]));
   const BinaryDescriptors second = describeLbdBinary(frames[1].image, detectLines(frames[1]));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(matchBinaryDescriptors(first, second, true, 256));
+    benchmark::DoNotOptimize(matchBinaryDescriptors(first, second, MatchingRules()));
   }
   state.counters["lines"] = static_cast<double>(first.bits.rows);
 }
@@ -98,10 +104,12 @@ void describeAndMatch(benchmark::State& state) {
 
 BENCHMARK(describe)->Unit(benchmark::kMillisecond);
 BENCHMARK(describeBinary)->Unit(benchmark::kMillisecond);
+BENCHMARK(describeOpenCvBinary)->Unit(benchmark::kMillisecond);
 BENCHMARK(match)->Unit(benchmark::kMillisecond);
 BENCHMARK(matchBinary)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(describeAndMatch, LbdAssociator)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(describeAndMatch, LbdBinaryAssociator)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(describeAndMatch, OpenCvLbdBinaryAssociator)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace evolin

@@ -19,11 +19,15 @@ constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 struct Nearest {
   std::size_t index = kNobody;
   double distance = std::numeric_limits<double>::infinity();
+  double second_distance = std::numeric_limits<double>::infinity();
 
   void offer(std::size_t candidate, double candidate_distance) {
     if (candidate_distance < distance) {
+      second_distance = distance;
       distance = candidate_distance;
       index = candidate;
+    } else if (candidate_distance < second_distance) {
+      second_distance = candidate_distance;
     }
   }
 };
@@ -32,14 +36,16 @@ struct NearestPair {
   int first;
   int second;
   double distance;
+  double rival;  // the next best one's
 };
 
 // Pairs of nearest rows among those chosen, by the first. `offer(i, &of_first, &of_second)` offers
-// distances of first_rows[i] from `second_rows`; every one that is a row's smallest is among them.
+// distances of first_rows[i] from `second_rows`; every one that is a row's smallest is among them,
+// and its second smallest where `rules` ask for it.
 template <typename Offer>
 std::vector<NearestPair> pairNearest(const std::vector<int>& first_rows,
-                                     const std::vector<int>& second_rows, bool cross_check,
-                                     Offer offer) {
+                                     const std::vector<int>& second_rows,
+                                     const MatchingRules& rules, Offer offer) {
   std::vector<Nearest> of_first(first_rows.size());
   std::vector<Nearest> of_second(second_rows.size());
   for (std::size_t i = 0; i < first_rows.size(); ++i) {
@@ -48,12 +54,22 @@ std::vector<NearestPair> pairNearest(const std::vector<int>& first_rows,
   std::vector<NearestPair> pairs;
   for (std::size_t i = 0; i < first_rows.size(); ++i) {
     const Nearest& nearest = of_first[i];
-    if (nearest.index == kNobody || (cross_check && of_second[nearest.index].index != i)) {
+    if (nearest.index == kNobody || (rules.cross_check && of_second[nearest.index].index != i)) {
       continue;  // nobody to match, or that one prefers another
     }
-    pairs.push_back({first_rows[i], second_rows[nearest.index], nearest.distance});
+    const double rival = rules.cross_check ? std::min(nearest.second_distance,
+                                                      of_second[nearest.index].second_distance)
+                                           : nearest.second_distance;
+    pairs.push_back({first_rows[i], second_rows[nearest.index], nearest.distance, rival});
   }
   return pairs;
+}
+
+bool asksForRatio(const MatchingRules& rules) { return rules.max_ratio < 1; }
+
+bool keeps(const MatchingRules& rules, double distance, double rival) {
+  return distance <= rules.max_distance &&
+         (!asksForRatio(rules) || distance < rules.max_ratio * rival);
 }
 
 LineMatch makeMatch(const NearestPair& pair, double distance) {
@@ -142,30 +158,43 @@ float farthestEstimate(float smallest, int size) {
   return smallest * (1 + relative) + 1e-30F;
 }
 
-// Exact distances are measured where estimates say that one of the two rows may be the nearest.
+// The smallest of numbers and the one after it; those that are not numbers do not count.
+struct SmallestTwo {
+  float first = std::numeric_limits<float>::infinity();
+  float second = std::numeric_limits<float>::infinity();
+
+  void offer(float value) {
+    if (value < first) {
+      second = first;
+      first = value;
+    } else if (value < second) {
+      second = value;
+    }
+  }
+};
+
+// Exact distances are measured where estimates say that one of the two rows may be the nearest, or
+// the second nearest where rules ask for that one.
 class CandidatePairs {
  public:
   CandidatePairs(const cv::Mat& first, const std::vector<int>& first_rows, const cv::Mat& second,
-                 const std::vector<int>& second_rows)
+                 const std::vector<int>& second_rows, const MatchingRules& rules)
       : first_(first), first_rows_(first_rows), second_(second), second_rows_(second_rows) {
     const Columns columns(second, second_rows);
     stride_ = columns.count;
     estimates_.resize(first_rows.size() * stride_);
-    first_limits_.resize(first_rows.size());
-    second_limits_.assign(stride_, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < first_rows.size(); ++i) {
-      float* const row = estimates_.data() + i * stride_;
       estimateDistances(first.ptr<float>(first_rows[i]), columns.values.data(),
-                        static_cast<std::size_t>(first.cols), stride_, row);
-      float smallest = std::numeric_limits<float>::infinity();
-      for (std::size_t j = 0; j < second_rows.size(); ++j) {
-        smallest = std::min(smallest, row[j]);
-        second_limits_[j] = std::min(second_limits_[j], row[j]);
-      }
-      first_limits_[i] = farthestEstimate(smallest, first.cols);
+                        static_cast<std::size_t>(first.cols), stride_,
+                        estimates_.data() + i * stride_);
     }
-    for (float& limit : second_limits_) {
-      limit = farthestEstimate(limit, first.cols);
+    if (rules.may_match) {
+      leaveOut(rules);
+    }
+    if (asksForRatio(rules)) {
+      findLimits<SmallestTwo>([](const SmallestTwo& two) { return two.second; });
+    } else {
+      findLimits<Smallest>([](const Smallest& smallest) { return smallest.value; });
     }
   }
 
@@ -183,6 +212,44 @@ class CandidatePairs {
   }
 
  private:
+  struct Smallest {
+    float value = std::numeric_limits<float>::infinity();
+
+    void offer(float other) { value = std::min(value, other); }
+  };
+
+  // Nothing compares with NaN.
+  void leaveOut(const MatchingRules& rules) {
+    for (std::size_t i = 0; i < first_rows_.size(); ++i) {
+      for (std::size_t j = 0; j < second_rows_.size(); ++j) {
+        if (!rules.may_match(static_cast<std::size_t>(first_rows_[i]),
+                             static_cast<std::size_t>(second_rows_[j]))) {
+          estimates_[i * stride_ + j] = std::numeric_limits<float>::quiet_NaN();
+        }
+      }
+    }
+  }
+
+  // `Lowest` takes the estimates of a row or column, `limit` says which of them counts.
+  template <typename Lowest, typename Limit>
+  void findLimits(const Limit& limit) {
+    std::vector<Lowest> of_second(second_rows_.size());
+    first_limits_.resize(first_rows_.size());
+    for (std::size_t i = 0; i < first_rows_.size(); ++i) {
+      const float* const row = estimates_.data() + i * stride_;
+      Lowest of_first;
+      for (std::size_t j = 0; j < second_rows_.size(); ++j) {
+        of_first.offer(row[j]);
+        of_second[j].offer(row[j]);
+      }
+      first_limits_[i] = farthestEstimate(limit(of_first), first_.cols);
+    }
+    second_limits_.resize(second_rows_.size());
+    for (std::size_t j = 0; j < second_rows_.size(); ++j) {
+      second_limits_[j] = farthestEstimate(limit(of_second[j]), first_.cols);
+    }
+  }
+
   const cv::Mat& first_;
   const std::vector<int>& first_rows_;
   const cv::Mat& second_;
@@ -195,7 +262,8 @@ class CandidatePairs {
 
 }  // namespace
 
-LineMatches matchDescriptors(const cv::Mat& first, const cv::Mat& second, bool cross_check) {
+LineMatches matchDescriptors(const cv::Mat& first, const cv::Mat& second,
+                             const MatchingRules& rules) {
   requireType(first, "first", CV_32F, "CV_32F");
   requireType(second, "second", CV_32F, "CV_32F");
   if (first.rows == 0 || second.rows == 0) {
@@ -204,19 +272,22 @@ LineMatches matchDescriptors(const cv::Mat& first, const cv::Mat& second, bool c
   requireEqualWidth(first, second);
   const std::vector<int> first_rows = finiteRows(first);
   const std::vector<int> second_rows = finiteRows(second);
-  const CandidatePairs candidates(first, first_rows, second, second_rows);
+  const CandidatePairs candidates(first, first_rows, second, second_rows, rules);
   const auto offer = [&](std::size_t i, auto* of_first, auto* of_second) {
     candidates.offer(i, of_first, of_second);
   };
   LineMatches matches;
-  for (const NearestPair& pair : pairNearest(first_rows, second_rows, cross_check, offer)) {
-    matches.push_back(makeMatch(pair, std::sqrt(pair.distance)));
+  for (const NearestPair& pair : pairNearest(first_rows, second_rows, rules, offer)) {
+    const double distance = std::sqrt(pair.distance);
+    if (keeps(rules, distance, std::sqrt(pair.rival))) {
+      matches.push_back(makeMatch(pair, distance));
+    }
   }
   return matches;
 }
 
 LineMatches matchBinaryDescriptors(const BinaryDescriptors& first, const BinaryDescriptors& second,
-                                   bool cross_check, int max_distance) {
+                                   const MatchingRules& rules) {
   requireBits(first, "first");
   requireBits(second, "second");
   if (first.bits.rows == 0 || second.bits.rows == 0) {
@@ -228,6 +299,10 @@ LineMatches matchBinaryDescriptors(const BinaryDescriptors& first, const BinaryD
   const auto offer = [&](std::size_t i, auto* of_first, auto* of_second) {
     const std::uint8_t* const row = first.bits.ptr<std::uint8_t>(first_rows[i]);
     for (std::size_t j = 0; j < second_rows.size(); ++j) {
+      if (rules.may_match && !rules.may_match(static_cast<std::size_t>(first_rows[i]),
+                                              static_cast<std::size_t>(second_rows[j]))) {
+        continue;
+      }
       const double distance =
           cv::hal::normHamming(row, second.bits.ptr<std::uint8_t>(second_rows[j]), first.bits.cols);
       (*of_first)[i].offer(j, distance);
@@ -235,8 +310,8 @@ LineMatches matchBinaryDescriptors(const BinaryDescriptors& first, const BinaryD
     }
   };
   LineMatches matches;
-  for (const NearestPair& pair : pairNearest(first_rows, second_rows, cross_check, offer)) {
-    if (pair.distance <= max_distance) {
+  for (const NearestPair& pair : pairNearest(first_rows, second_rows, rules, offer)) {
+    if (keeps(rules, pair.distance, pair.rival)) {
       matches.push_back(makeMatch(pair, pair.distance));
     }
   }

@@ -50,9 +50,9 @@ cv::Mat descriptorsOf(const FrameLines& lines) {
 }  // namespace
 
 void LbdAssociator::configure(const YAML::Node& parameters) {
-  LbdParameters read;
+  LbdParameters read(kLbdLargestDistance);
   ParameterReader reader(parameters, kOwner);
-  reader.read("cross_check", &read.cross_check);
+  readDescriptorChoice(&reader, &read);
   reader.finish();
   parameters_ = read;
   configured_ = true;
@@ -69,7 +69,8 @@ LineMatches LbdAssociator::match(const FrameLines& first, const FrameLines& seco
   if (!configured_) {
     throw Error(std::string(kOwner) + ": match() was called before configure()");
   }
-  return matchDescriptors(descriptorsOf(first), descriptorsOf(second), parameters_.cross_check);
+  return matchDescriptors(descriptorsOf(first), descriptorsOf(second),
+                          matchingRules(parameters_, first.lines, second.lines));
 }
 
 }  // namespace evolin

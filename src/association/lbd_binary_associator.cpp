@@ -1,4 +1,4 @@
-// Associates lines by the binary line band descriptor of OpenCV.
+// Associates lines by the binary line band descriptor.
 #include "evolin_ros/association/lbd_binary_associator.h"
 
 #include <any>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "evolin_ros/association/descriptor_matching.h"
-#include "evolin_ros/association/lbd_binary_descriptor.h"
+#include "evolin_ros/association/opencv_lbd_binary.h"
 #include "evolin_ros/base/availability.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
@@ -14,25 +14,50 @@
 namespace evolin {
 namespace {
 
-const char* const kOwner = "associator lbd_binary";
-
 // What FrameLines::description holds; a type of its own, so that another method's cache is not
 // mistaken for this one.
 struct LbdBinaryDescription {
+  std::string owner;  ///< own descriptors are not OpenCV's
   BinaryDescriptors descriptors;
 };
 
-BinaryDescriptors descriptorsOf(const FrameLines& lines) {
+}  // namespace
+
+LbdBinaryAssociator::LbdBinaryAssociator()
+    : LbdBinaryAssociator("associator lbd_binary", &describeLbdBinary) {}
+
+LbdBinaryAssociator::LbdBinaryAssociator(std::string owner, Describe describe_lines)
+    : owner_(std::move(owner)), describe_lines_(describe_lines) {}
+
+void LbdBinaryAssociator::configure(const YAML::Node& parameters) {
+  requireAvailable(owner_, whyUnavailable());
+  LbdBinaryParameters read(kLbdBinaryLargestDistance);
+  ParameterReader reader(parameters, owner_);
+  readDescriptorChoice(&reader, &read);
+  reader.finish();
+  parameters_ = read;
+  configured_ = true;
+}
+
+void LbdBinaryAssociator::requireConfigured(const char* function) const {
+  if (!configured_) {
+    throw Error(owner_ + ": " + function + "() was called before configure()");
+  }
+}
+
+BinaryDescriptors LbdBinaryAssociator::descriptorsOf(const FrameLines& lines) const {
   const auto* known = std::any_cast<LbdBinaryDescription>(&lines.description);
-  if (known != nullptr && known->descriptors.valid.size() == lines.lines.size()) {
+  if (known != nullptr && known->owner == owner_ &&
+      known->descriptors.valid.size() == lines.lines.size()) {
     return known->descriptors;
   }
   LbdBinaryDescription description;
+  description.owner = owner_;
   if (!lines.lines.empty()) {
     try {
-      description.descriptors = describeLbdBinary(toGray(lines.frame.image), lines.lines);
+      description.descriptors = describe_lines_(toGray(lines.frame.image), lines.lines);
     } catch (const Error& error) {
-      throw Error(std::string(kOwner) + ": frame '" + lines.frame.name + "': " + error.what());
+      throw Error(owner_ + ": frame '" + lines.frame.name + "': " + error.what());
     }
   }
   const BinaryDescriptors descriptors = description.descriptors;
@@ -40,34 +65,20 @@ BinaryDescriptors descriptorsOf(const FrameLines& lines) {
   return descriptors;
 }
 
-}  // namespace
-
-std::string LbdBinaryAssociator::whyUnavailable() const { return whyNoLbdBinary(); }
-
-void LbdBinaryAssociator::configure(const YAML::Node& parameters) {
-  requireAvailable(kOwner, whyUnavailable());
-  LbdBinaryParameters read;
-  ParameterReader reader(parameters, kOwner);
-  reader.read("cross_check", &read.cross_check);
-  reader.read("max_distance", &read.max_distance, 0, 8 * kLbdBinaryBytes);
-  reader.finish();
-  parameters_ = read;
-  configured_ = true;
-}
-
 void LbdBinaryAssociator::describe(const FrameLines& lines) {
-  if (!configured_) {
-    throw Error(std::string(kOwner) + ": describe() was called before configure()");
-  }
+  requireConfigured("describe");
   descriptorsOf(lines);
 }
 
 LineMatches LbdBinaryAssociator::match(const FrameLines& first, const FrameLines& second) {
-  if (!configured_) {
-    throw Error(std::string(kOwner) + ": match() was called before configure()");
-  }
+  requireConfigured("match");
   return matchBinaryDescriptors(descriptorsOf(first), descriptorsOf(second),
-                                parameters_.cross_check, parameters_.max_distance);
+                                matchingRules(parameters_, first.lines, second.lines));
 }
+
+OpenCvLbdBinaryAssociator::OpenCvLbdBinaryAssociator()
+    : LbdBinaryAssociator("associator opencv_lbd_binary", &describeOpenCvLbdBinary) {}
+
+std::string OpenCvLbdBinaryAssociator::whyUnavailable() const { return whyNoOpenCvLbdBinary(); }
 
 }  // namespace evolin

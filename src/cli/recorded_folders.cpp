@@ -113,6 +113,9 @@ bool record(PartReader* reader, FrontEnd* front_end, FrontEndSink* sink, bool qu
   for (const std::string& note : reader->notes()) {
     sink->takeNote(note);
   }
+  for (const std::string& note : front_end->notes()) {
+    sink->takeNote(note);
+  }
   return !more;
 }
 

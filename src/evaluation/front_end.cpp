@@ -47,6 +47,19 @@ bool FrontEnd::givesScores() const {
   return !detectors_.empty() && detectors_.front()->givesScores();
 }
 
+std::vector<std::string> FrontEnd::notes() const {
+  MatchCounts sum;
+  for (const std::shared_ptr<LineAssociator>& associator : associators_) {
+    for (const auto& [what, count] : associator->counts()) {
+      sum[what] += count;
+    }
+  }
+  if (sum.empty()) {
+    return {};
+  }
+  return {"matches of " + options_.matches_source + ": " + toText(sum)};
+}
+
 void FrontEnd::process(std::vector<StreamPart> parts, FrontEndSink* sink) {
   // A plug-in that asks for the camera gets the newest one before its image.
   for (StreamPart& part : parts) {

@@ -50,6 +50,9 @@ class Run : public FrontEndSink {
   std::size_t images() const { return images_; }
 
   std::vector<Report> reports(bool complete) {
+    for (const std::string& note : front_end_.notes()) {
+      evaluator_.addNote(note);
+    }
     times_.measure(Stage::kReport, [&] {
       if (std::optional<Report> previous = evaluator_.previousReport()) {
         reports_.push_back(std::move(*previous));

@@ -43,6 +43,9 @@ class LineAssociatorNodelet : public SafeNodelet {
     const std::string drops = health_->dropsText();
     NODELET_INFO("%zu frames done; left out: %s", health_->finishedCount(),
                  drops.empty() ? "none" : drops.c_str());
+    if (const MatchCounts counts = settings()->associator->counts(); !counts.empty()) {
+      NODELET_INFO("with the last settings: %s", toText(counts).c_str());
+    }
     unloadLast();
   }
 

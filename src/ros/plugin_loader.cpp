@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "evolin_ros/association/verified_associator.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
 
@@ -96,7 +97,8 @@ std::shared_ptr<LineDetector> PluginLoader::loadDetector(const std::string& name
 }
 
 std::shared_ptr<LineAssociator> PluginLoader::loadAssociator(const std::string& name) {
-  return load("associator", name, &loaders_->associators, loaders_);
+  return std::make_shared<VerifiedAssociator>(
+      name, load("associator", name, &loaders_->associators, loaders_));
 }
 
 std::filesystem::path PluginLoader::detectorLibrary(const std::string& name) {

@@ -32,6 +32,7 @@ class PluginLoader {
   /// Not yet configured. Throws Error naming the plug-in: unknown (with the nearest known one) or a
   /// library that does not load.
   std::shared_ptr<LineDetector> loadDetector(const std::string& name);
+  /// An associator takes the parameters of VerifiedAssociator besides its own.
   std::shared_ptr<LineAssociator> loadAssociator(const std::string& name);
 
   /// The file of the library that holds the plug-in; throws as above.

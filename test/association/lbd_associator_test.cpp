@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "evolin_ros/base/error.h"
+#include "test/association/descriptor_choice_support.h"
 #include "test/support/golden.h"
 
 namespace evolin {
@@ -128,10 +130,85 @@ TEST_F(LbdAssociatorTest, KeepsOneSidedPairsOnlyWithoutCrossCheck) {
   EXPECT_EQ(one_sided.match(first, second).size(), 5U);
 }
 
+TEST_F(LbdAssociatorTest, MatchesOnlyWithinTheLimitsOnDisplacementAndAngle) {
+  LineSegments moved = someLines();
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    moved[i].y1 += static_cast<double>(i);  // middles move by i / 2 pixels
+  }
+  const FrameLines first = texturedFrame(someLines());
+  const FrameLines second = texturedFrame(moved);
+  ASSERT_EQ(associator_.match(first, second).size(), 4U);
+  LbdAssociator near;
+  near.configure(YAML::Load("{max_displacement: 1.0}"));
+  EXPECT_EQ(near.match(first, second).size(), 3U);
+  near.configure(YAML::Load("{max_displacement: 0.99}"));
+  EXPECT_EQ(near.match(first, second).size(), 2U);
+
+  // Turned about its middle by 12 degrees: the first line and all others' own direction.
+  LineSegments turned = someLines();
+  const double angle = 12 * M_PI / 180;
+  const LineSegment& line = turned[0];
+  const double dx = (line.x2 - line.x1) / 2;
+  const double dy = (line.y2 - line.y1) / 2;
+  const double x = (line.x1 + line.x2) / 2;
+  const double y = (line.y1 + line.y2) / 2;
+  const double ax = std::cos(angle) * dx - std::sin(angle) * dy;
+  const double ay = std::sin(angle) * dx + std::cos(angle) * dy;
+  turned[0] = segment(x - ax, y - ay, x + ax, y + ay);
+  const FrameLines third = texturedFrame(turned);
+  LbdAssociator wide;
+  wide.configure(YAML::Load("{max_angle: 12.1, max_displacement: 1}"));
+  EXPECT_EQ(wide.match(first, third).size(), 4U);
+  LbdAssociator narrow;
+  narrow.configure(YAML::Load("{max_angle: 11.9, max_displacement: 1}"));
+  EXPECT_EQ(narrow.match(first, third).size(), 3U);
+}
+
+// Directions are compared without their sense: a line and the same from its other end are 0 apart.
+TEST_F(LbdAssociatorTest, LimitsTheAngleWhateverTheEndpointsOrder) {
+  LbdAssociator narrow;
+  narrow.configure(YAML::Load("{max_angle: 1, cross_check: false}"));
+  const FrameLines first = texturedFrame({segment(50, 50, 150, 50.1)});
+  for (const LineSegment& other :
+       {segment(150, 50.1, 50, 50), segment(50, 50.1, 150, 50), segment(150, 50, 50, 50.1)}) {
+    EXPECT_EQ(narrow.match(first, texturedFrame({other})).size(), 1U);
+  }
+  EXPECT_TRUE(narrow.match(first, texturedFrame({segment(50, 50, 150, 53)})).empty());
+}
+
+TEST_F(LbdAssociatorTest, DropsPairsByDistanceAndByRatio) {
+  LineSegments moved = someLines();
+  for (LineSegment& line : moved) {
+    line.y1 += 1;
+    line.y2 += 1;
+  }
+  moved.push_back(segment(50, 50.9, 150, 60.9));  // nearly the first one's true match
+  const FrameLines first = texturedFrame(someLines());
+  const FrameLines second = texturedFrame(moved);
+  const LineMatches all = associator_.match(first, second);
+  ASSERT_EQ(all.size(), 4U);
+  LbdAssociator ratio;
+  ratio.configure(YAML::Load("{max_ratio: 0.8}"));
+  const LineMatches sure = ratio.match(first, second);
+  ASSERT_EQ(sure.size(), 3U);
+  EXPECT_EQ(sure[0].first, 1U);
+  float farthest = 0;
+  for (const LineMatch& match : all) {
+    farthest = std::max(farthest, match.distance);
+  }
+  LbdAssociator strict;
+  strict.configure(YAML::Load("{max_distance: " + std::to_string(0.999 * farthest) + "}"));
+  EXPECT_EQ(strict.match(first, second).size(), 3U);
+}
+
 TEST_F(LbdAssociatorTest, RefusesUnknownParametersOtherImagesAndUseBeforeConfigure) {
   LbdAssociator fresh;
   EXPECT_THROW(fresh.match(texturedFrame(someLines()), texturedFrame(someLines())), Error);
-  EXPECT_THROW(fresh.configure(YAML::Load("{crosscheck: true}")), ConfigError);
+  for (const char* bad : {"{crosscheck: true}", "{max_distance: 2.1}", "{max_ratio: 1.5}",
+                          "{max_ratio: -0.1}", "{max_displacement: -1}", "{max_displacement: far}",
+                          "{max_angle: 91}", "{max_angle: .nan}"}) {
+    EXPECT_THROW(fresh.configure(YAML::Load(bad)), ConfigError) << bad;
+  }
   FrameLines deep = texturedFrame(someLines());
   deep.frame.image.convertTo(deep.frame.image, CV_16U);
   EXPECT_THROW(associator_.match(deep, texturedFrame(someLines())), Error);
@@ -143,9 +220,7 @@ TEST_F(LbdAssociatorTest, ShippedFileHoldsAllDefaults) {
   const YAML::Node node = YAML::LoadFile(file.string());
   LbdAssociator loaded;
   ASSERT_NO_THROW(loaded.configure(node));
-  EXPECT_EQ(loaded.parameters().cross_check, LbdParameters().cross_check);
-  ASSERT_EQ(node.size(), 1U);
-  EXPECT_TRUE(node["cross_check"].IsDefined());
+  test::expectHoldsAllDefaults(node, loaded.parameters(), LbdAssociator().parameters());
 }
 
 struct GoldenPair {

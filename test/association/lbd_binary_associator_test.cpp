@@ -1,4 +1,5 @@
-// The lbd_binary plug-in: real frames, robustness, its cache and its shipped parameters.
+// The plug-ins lbd_binary and opencv_lbd_binary: real frames, robustness, its cache and its shipped
+// parameters.
 #include "evolin_ros/association/lbd_binary_associator.h"
 
 #include <gtest/gtest.h>
@@ -11,9 +12,11 @@
 #include <string>
 #include <thread>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "evolin_ros/base/error.h"
+#include "test/association/descriptor_choice_support.h"
 #include "test/association/textured_images.h"
 #include "test/support/golden.h"
 #include "test/support/random_lines.h"
@@ -56,6 +59,7 @@ void expectIdentity(const LineMatches& matches, std::size_t count) {
   }
 }
 
+template <typename Associator>
 class LbdBinaryAssociatorTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -65,14 +69,23 @@ class LbdBinaryAssociatorTest : public ::testing::Test {
     associator_.configure(YAML::Node());
   }
 
-  LbdBinaryAssociator associator_;
+  LineMatches match(const FrameLines& first, const FrameLines& second) {
+    return associator_.match(first, second);
+  }
+
+  Associator associator_;
+  const std::string name_ =
+      std::is_same_v<Associator, LbdBinaryAssociator> ? "lbd_binary" : "opencv_lbd_binary";
 };
 
-TEST_F(LbdBinaryAssociatorTest, PairsEqualFramesLineByLineAtDistanceZero) {
-  expectIdentity(associator_.match(texturedFrame(someLines()), texturedFrame(someLines())), 4);
+using Associators = ::testing::Types<LbdBinaryAssociator, OpenCvLbdBinaryAssociator>;
+TYPED_TEST_SUITE(LbdBinaryAssociatorTest, Associators);
+
+TYPED_TEST(LbdBinaryAssociatorTest, PairsEqualFramesLineByLineAtDistanceZero) {
+  expectIdentity(this->match(texturedFrame(someLines()), texturedFrame(someLines())), 4);
 }
 
-TEST_F(LbdBinaryAssociatorTest, FollowsAPermutationOfTheLines) {
+TYPED_TEST(LbdBinaryAssociatorTest, FollowsAPermutationOfTheLines) {
   test::RandomLines random(8);
   const LineSegments lines = random.anywhere(60, 239, 199);
   std::vector<std::uint32_t> order(lines.size());
@@ -82,9 +95,9 @@ TEST_F(LbdBinaryAssociatorTest, FollowsAPermutationOfTheLines) {
   for (const std::uint32_t i : order) {
     shuffled.push_back(lines[i]);
   }
-  const LineMatches straight = associator_.match(texturedFrame(lines), texturedFrame(lines));
+  const LineMatches straight = this->match(texturedFrame(lines), texturedFrame(lines));
   ASSERT_EQ(straight.size(), lines.size());
-  const LineMatches matches = associator_.match(texturedFrame(lines), texturedFrame(shuffled));
+  const LineMatches matches = this->match(texturedFrame(lines), texturedFrame(shuffled));
   ASSERT_EQ(matches.size(), lines.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     EXPECT_EQ(matches[i].first, i);
@@ -93,23 +106,23 @@ TEST_F(LbdBinaryAssociatorTest, FollowsAPermutationOfTheLines) {
   }
 }
 
-TEST_F(LbdBinaryAssociatorTest, TakesTheEndpointsInTheOrderGiven) {
+TYPED_TEST(LbdBinaryAssociatorTest, TakesTheEndpointsInTheOrderGiven) {
   LineSegments lines = someLines();
   lines[2] = reversed(lines[2]);
-  const LineMatches matches = associator_.match(texturedFrame(someLines()), texturedFrame(lines));
+  const LineMatches matches = this->match(texturedFrame(someLines()), texturedFrame(lines));
   const auto zeros = std::count_if(matches.begin(), matches.end(),
                                    [](const LineMatch& match) { return match.distance == 0; });
   EXPECT_EQ(zeros, 3);
-  expectIdentity(associator_.match(texturedFrame(lines), texturedFrame(lines)), 4);
+  expectIdentity(this->match(texturedFrame(lines), texturedFrame(lines)), 4);
 }
 
-TEST_F(LbdBinaryAssociatorTest, LeavesLinesWithoutLengthPlaceOrTextureUnmatched) {
+TYPED_TEST(LbdBinaryAssociatorTest, LeavesLinesWithoutLengthPlaceOrTextureUnmatched) {
   LineSegments lines = someLines();
   lines.insert(lines.begin(), segment(90, 90, 90, 90));
   lines.push_back(segment(kNan, 1, 2, 3));
   lines.push_back(segment(500, 1, 600, 3));
   lines.push_back(segment(90, 90, 90, 90));
-  const LineMatches matches = associator_.match(texturedFrame(lines), texturedFrame(lines));
+  const LineMatches matches = this->match(texturedFrame(lines), texturedFrame(lines));
   ASSERT_EQ(matches.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(matches[i].first, i + 1);
@@ -117,62 +130,62 @@ TEST_F(LbdBinaryAssociatorTest, LeavesLinesWithoutLengthPlaceOrTextureUnmatched)
   }
   FrameLines flat = texturedFrame(someLines());
   flat.frame.image = cv::Mat(200, 240, CV_8UC1, cv::Scalar(77));
-  EXPECT_TRUE(associator_.match(flat, flat).empty());
-  EXPECT_TRUE(associator_.match(flat, texturedFrame(someLines())).empty());
+  EXPECT_TRUE(this->match(flat, flat).empty());
+  EXPECT_TRUE(this->match(flat, texturedFrame(someLines())).empty());
 }
 
-TEST_F(LbdBinaryAssociatorTest, MatchesNothingToNothing) {
+TYPED_TEST(LbdBinaryAssociatorTest, MatchesNothingToNothing) {
   const FrameLines none = texturedFrame({});
   const FrameLines some = texturedFrame(someLines());
-  EXPECT_TRUE(associator_.match(none, some).empty());
-  EXPECT_TRUE(associator_.match(some, none).empty());
-  EXPECT_TRUE(associator_.match(none, none).empty());
+  EXPECT_TRUE(this->match(none, some).empty());
+  EXPECT_TRUE(this->match(some, none).empty());
+  EXPECT_TRUE(this->match(none, none).empty());
   FrameLines pixel = texturedFrame(someLines());
   pixel.frame.image = cv::Mat(1, 1, CV_8UC1, cv::Scalar(9));
   pixel.lines.push_back(segment(-1, 0, 1, 0));
-  EXPECT_TRUE(associator_.match(pixel, some).empty());
+  EXPECT_TRUE(this->match(pixel, some).empty());
 }
 
-TEST_F(LbdBinaryAssociatorTest, SaysNothingOnStandardOutput) {
+TYPED_TEST(LbdBinaryAssociatorTest, SaysNothingOnStandardOutput) {
   ::testing::internal::CaptureStdout();
   FrameLines flat = texturedFrame({segment(kNan, 1, 2, 3)});
-  associator_.match(flat, texturedFrame({}));
-  associator_.match(flat, texturedFrame(someLines()));
+  this->match(flat, texturedFrame({}));
+  this->match(flat, texturedFrame(someLines()));
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
-TEST_F(LbdBinaryAssociatorTest, DescribesAFrameOnce) {
+TYPED_TEST(LbdBinaryAssociatorTest, DescribesAFrameOnce) {
   FrameLines first = texturedFrame(someLines());
   const FrameLines second = texturedFrame(someLines());
-  const LineMatches before = associator_.match(first, second);
+  const LineMatches before = this->match(first, second);
   ASSERT_TRUE(first.description.has_value());
   first.frame.image = cv::Mat();  // a second description would have to throw
   LineMatches after;
-  ASSERT_NO_THROW(after = associator_.match(first, second));
+  ASSERT_NO_THROW(after = this->match(first, second));
   EXPECT_EQ(rows(after), rows(before));
 }
 
-TEST_F(LbdBinaryAssociatorTest, ReplacesAnotherMethodsCacheAndOneOfOtherLines) {
+TYPED_TEST(LbdBinaryAssociatorTest, ReplacesAnotherMethodsCacheAndOneOfOtherLines) {
   FrameLines first = texturedFrame(someLines());
   const FrameLines second = texturedFrame(someLines());
   first.description = std::string("another method's");
-  EXPECT_EQ(associator_.match(first, second).size(), 4U);
+  EXPECT_EQ(this->match(first, second).size(), 4U);
   first.lines.pop_back();
-  EXPECT_EQ(associator_.match(first, second).size(), 3U);
+  EXPECT_EQ(this->match(first, second).size(), 3U);
 }
 
-TEST_F(LbdBinaryAssociatorTest, KeepsOneSidedPairsOnlyWithoutCrossCheck) {
+TYPED_TEST(LbdBinaryAssociatorTest, KeepsOneSidedPairsOnlyWithoutCrossCheck) {
   LineSegments doubled = someLines();
   doubled.push_back(doubled.front());
   const FrameLines first = texturedFrame(doubled);
   const FrameLines second = texturedFrame(someLines());
-  EXPECT_EQ(associator_.match(first, second).size(), 4U);
-  LbdBinaryAssociator one_sided;
+  EXPECT_EQ(this->match(first, second).size(), 4U);
+  TypeParam one_sided;
   one_sided.configure(YAML::Load("{cross_check: false}"));
   EXPECT_EQ(one_sided.match(first, second).size(), 5U);
 }
 
-TEST_F(LbdBinaryAssociatorTest, DropsPairsBeyondTheLargestDistance) {
+TYPED_TEST(LbdBinaryAssociatorTest, DropsPairsBeyondTheLargestDistance) {
   LineSegments moved = someLines();
   for (LineSegment& line : moved) {
     line.y1 += 1;
@@ -180,7 +193,7 @@ TEST_F(LbdBinaryAssociatorTest, DropsPairsBeyondTheLargestDistance) {
   }
   const FrameLines first = texturedFrame(someLines());
   const FrameLines second = texturedFrame(moved);
-  const LineMatches all = associator_.match(first, second);
+  const LineMatches all = this->match(first, second);
   ASSERT_EQ(all.size(), 4U);
   std::vector<float> distances;
   for (const LineMatch& match : all) {
@@ -189,49 +202,68 @@ TEST_F(LbdBinaryAssociatorTest, DropsPairsBeyondTheLargestDistance) {
   std::sort(distances.begin(), distances.end());
   ASSERT_GT(distances.back(), distances.front());
   for (const float limit : {distances.front(), distances.back()}) {
-    LbdBinaryAssociator strict;
+    TypeParam strict;
     strict.configure(YAML::Load("{max_distance: " + std::to_string(int(limit)) + "}"));
     for (const LineMatch& match : strict.match(first, second)) {
       EXPECT_LE(match.distance, limit);
     }
   }
-  LbdBinaryAssociator strict;
+  TypeParam strict;
   strict.configure(YAML::Load("{max_distance: " + std::to_string(int(distances.back()) - 1) + "}"));
   const LineMatches fewer = strict.match(first, second);
   EXPECT_LT(fewer.size(), 4U);
   EXPECT_GE(fewer.size(), 1U);
 }
 
-TEST_F(LbdBinaryAssociatorTest, RefusesBadParametersOtherImagesAndUseBeforeConfigure) {
-  LbdBinaryAssociator fresh;
+TYPED_TEST(LbdBinaryAssociatorTest, GivesTheSamePairsWhenTheFramesAreExchanged) {
+  test::RandomLines random(9);
+  const FrameLines first = texturedFrame(random.anywhere(60, 239, 199));
+  FrameLines second = texturedFrame(random.anywhere(70, 239, 199));
+  std::copy_n(first.lines.begin(), 30, second.lines.begin() + 20);
+  TypeParam strict;
+  strict.configure(YAML::Load("{max_ratio: 0.95, max_displacement: 90, max_angle: 40}"));
+  for (LineAssociator* associator :
+       {static_cast<LineAssociator*>(&this->associator_), static_cast<LineAssociator*>(&strict)}) {
+    std::set<std::tuple<std::uint32_t, std::uint32_t, float>> back;
+    for (const LineMatch& match : associator->match(second, first)) {
+      back.emplace(match.second, match.first, match.distance);
+    }
+    const auto there = rows(associator->match(first, second));
+    EXPECT_GE(there.size(), 20U);
+    for (const auto& row : there) {
+      EXPECT_EQ(back.count(row), 1U) << std::get<0>(row) << " - " << std::get<1>(row);
+    }
+    EXPECT_EQ(there.size(), back.size());
+  }
+}
+
+TYPED_TEST(LbdBinaryAssociatorTest, RefusesBadParametersOtherImagesAndUseBeforeConfigure) {
+  TypeParam fresh;
   EXPECT_THROW(fresh.match(texturedFrame(someLines()), texturedFrame(someLines())), Error);
-  for (const char* bad : {"{crosscheck: true}", "{max_distance: 257}", "{max_distance: -1}",
-                          "{max_distance: near}", "{cross_check: 3}"}) {
+  for (const char* bad :
+       {"{crosscheck: true}", "{max_distance: 257}", "{max_distance: -1}", "{max_distance: near}",
+        "{cross_check: 3}", "{max_ratio: 1.1}", "{max_displacement: -1}", "{max_angle: 91}"}) {
     EXPECT_THROW(fresh.configure(YAML::Load(bad)), ConfigError) << bad;
   }
   FrameLines deep = texturedFrame(someLines());
   deep.frame.image.convertTo(deep.frame.image, CV_16U);
   try {
-    associator_.match(deep, texturedFrame(someLines()));
+    this->match(deep, texturedFrame(someLines()));
     FAIL() << "a 16-bit image was taken";
   } catch (const Error& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find("associator lbd_binary"), std::string::npos) << message;
+    EXPECT_NE(message.find("associator " + this->name_), std::string::npos) << message;
     EXPECT_NE(message.find("'drawn'"), std::string::npos) << message;
   }
 }
 
-TEST_F(LbdBinaryAssociatorTest, ShippedFileHoldsAllDefaults) {
+TYPED_TEST(LbdBinaryAssociatorTest, ShippedFileHoldsAllDefaults) {
   const std::filesystem::path file =
-      std::filesystem::path(EVOLIN_SOURCE_DIR) / "config" / "associators" / "lbd_binary.yaml";
+      std::filesystem::path(EVOLIN_SOURCE_DIR) / "config" / "associators" / (this->name_ + ".yaml");
   const YAML::Node node = YAML::LoadFile(file.string());
-  LbdBinaryAssociator loaded;
+  TypeParam loaded;
   ASSERT_NO_THROW(loaded.configure(node));
-  EXPECT_EQ(loaded.parameters().cross_check, LbdBinaryParameters().cross_check);
-  EXPECT_EQ(loaded.parameters().max_distance, LbdBinaryParameters().max_distance);
-  ASSERT_EQ(node.size(), 2U);
-  EXPECT_TRUE(node["cross_check"].IsDefined());
-  EXPECT_TRUE(node["max_distance"].IsDefined());
+  test::expectHoldsAllDefaults(node, loaded.parameters(), TypeParam().parameters());
 }
 
 FrameLines goldenLines(int index, const std::string& lines) {
@@ -242,16 +274,17 @@ FrameLines goldenLines(int index, const std::string& lines) {
   return frame;
 }
 
-// The lines move a pixel or so from frame to frame. Measured: 283 of 285 are matched, none wrongly;
-// a pair whose distances are near may fall either way on another processor.
-TEST_F(LbdBinaryAssociatorTest, MatchesAnnotatedLinesOfNeighbouringFramesRightly) {
+// The lines move a pixel or so from frame to frame. Measured: all 285 are matched by our own and
+// 283 by OpenCV's, none wrongly; a pair whose distances are near may fall either way on another
+// processor.
+TYPED_TEST(LbdBinaryAssociatorTest, MatchesAnnotatedLinesOfNeighbouringFramesRightly) {
   EVOLIN_REQUIRE_SHARED_DATA();
   std::size_t lines = 0;
   std::size_t matched = 0;
   std::size_t right = 0;
   for (int i = 0; i + 1 < test::kGoldenFrames; ++i) {
     const FrameLines first = goldenLines(i, "gt");
-    const LineMatches matches = associator_.match(first, goldenLines(i + 1, "gt"));
+    const LineMatches matches = this->match(first, goldenLines(i + 1, "gt"));
     lines += first.lines.size();
     matched += matches.size();
     for (const LineMatch& match : matches) {
@@ -259,28 +292,28 @@ TEST_F(LbdBinaryAssociatorTest, MatchesAnnotatedLinesOfNeighbouringFramesRightly
       EXPECT_LE(match.distance, 64) << "frame " << i << " line " << match.first;
     }
   }
-  RecordProperty("lines", static_cast<int>(lines));
-  RecordProperty("matched", static_cast<int>(matched));
-  RecordProperty("right", static_cast<int>(right));
+  ::testing::Test::RecordProperty("lines", static_cast<int>(lines));
+  ::testing::Test::RecordProperty("matched", static_cast<int>(matched));
+  ::testing::Test::RecordProperty("right", static_cast<int>(right));
   EXPECT_GE(static_cast<double>(right), 0.98 * static_cast<double>(lines));
   EXPECT_EQ(right, matched);
 }
 
-TEST_F(LbdBinaryAssociatorTest, MatchesARealFrameToItself) {
+TYPED_TEST(LbdBinaryAssociatorTest, MatchesARealFrameToItself) {
   EVOLIN_REQUIRE_SHARED_DATA();
   for (const char* lines : {"gt", "lsd"}) {
     const FrameLines frame = goldenLines(0, lines);
-    expectIdentity(associator_.match(frame, frame), frame.lines.size());
+    expectIdentity(this->match(frame, frame), frame.lines.size());
   }
 }
 
-TEST_F(LbdBinaryAssociatorTest, MatchesHundredsOfRandomAndBrokenLinesOnce) {
+TYPED_TEST(LbdBinaryAssociatorTest, MatchesHundredsOfRandomAndBrokenLinesOnce) {
   test::RandomLines random(21);
   LineSegments lines = random.anywhere(400, 700, 600);  // most reach beyond the image
   for (std::size_t i = 0; i < lines.size(); i += 7) {
     lines[i].x1 = kNan;
   }
-  const LineMatches matches = associator_.match(texturedFrame(lines), texturedFrame(lines));
+  const LineMatches matches = this->match(texturedFrame(lines), texturedFrame(lines));
   std::set<std::uint32_t> seconds;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     EXPECT_TRUE(i == 0 || matches[i - 1].first < matches[i].first);
@@ -291,14 +324,14 @@ TEST_F(LbdBinaryAssociatorTest, MatchesHundredsOfRandomAndBrokenLinesOnce) {
 }
 
 // Each thread with its own instance and frames, against the same work done one after the other.
-TEST_F(LbdBinaryAssociatorTest, TwoInstancesDoNotDisturbEachOther) {
+TYPED_TEST(LbdBinaryAssociatorTest, TwoInstancesDoNotDisturbEachOther) {
   struct Work {
     LineSegments lines;
     cv::Mat image;
     std::vector<LineMatches> results;
 
     void run() {
-      LbdBinaryAssociator associator;
+      TypeParam associator;
       associator.configure(YAML::Node());
       for (int round = 0; round < 10; ++round) {
         FrameLines first;
@@ -330,6 +363,61 @@ TEST_F(LbdBinaryAssociatorTest, TwoInstancesDoNotDisturbEachOther) {
       EXPECT_EQ(rows(together[i].results[k]), rows(alone[i].results[k])) << "round " << k;
     }
   }
+}
+
+// Where both continue the image alike the descriptors are the same; near the border a match may
+// fall otherwise. Measured: 340 of OpenCV's 340 matches of annotated lines are among our 342, 897
+// of its 904 matches of detected lines among our 906.
+TEST(LbdBinaryAgainstOpenCv, FindsNearlyAllOfItsMatchesOnRealFrames) {
+  EVOLIN_REQUIRE_SHARED_DATA();
+  LbdBinaryAssociator own;
+  OpenCvLbdBinaryAssociator opencv;
+  if (!opencv.whyUnavailable().empty()) {
+    GTEST_SKIP() << opencv.whyUnavailable();
+  }
+  own.configure(YAML::Node());
+  opencv.configure(YAML::Node());
+  for (const char* lines : {"gt", "lsd"}) {
+    std::size_t theirs = 0;
+    std::size_t ours = 0;
+    std::size_t equal = 0;
+    for (int i = 0; i < test::kGoldenFrames; ++i) {
+      const int j = (i + 1) % test::kGoldenFrames;
+      const FrameLines first = goldenLines(std::min(i, j), lines);
+      const FrameLines second = goldenLines(std::max(i, j), lines);
+      std::set<IndexPair> of_opencv;
+      for (const LineMatch& match : opencv.match(first, second)) {
+        of_opencv.emplace(match.first, match.second);
+      }
+      const LineMatches matches = own.match(first, second);
+      theirs += of_opencv.size();
+      ours += matches.size();
+      for (const LineMatch& match : matches) {
+        equal += of_opencv.count({match.first, match.second});
+      }
+    }
+    const std::string name = lines;
+    RecordProperty(name + "_opencv", static_cast<int>(theirs));
+    RecordProperty(name + "_own", static_cast<int>(ours));
+    RecordProperty(name + "_equal", static_cast<int>(equal));
+    EXPECT_GE(static_cast<double>(equal), 0.97 * static_cast<double>(theirs)) << lines;
+    EXPECT_GE(static_cast<double>(equal), 0.97 * static_cast<double>(ours)) << lines;
+  }
+}
+
+TEST(LbdBinaryAgainstOpenCv, DoesNotTakeTheOthersDescriptions) {
+  OpenCvLbdBinaryAssociator opencv;
+  if (!opencv.whyUnavailable().empty()) {
+    GTEST_SKIP() << opencv.whyUnavailable();
+  }
+  LbdBinaryAssociator own;
+  own.configure(YAML::Node());
+  opencv.configure(YAML::Node());
+  // At the border the two differ.
+  FrameLines frame = texturedFrame({segment(1, 50, 1, 150), segment(60, 2, 170, 2)});
+  own.describe(frame);
+  frame.frame.image.release();
+  EXPECT_THROW(opencv.describe(frame), Error);
 }
 
 }  // namespace

@@ -2,12 +2,15 @@
 // kind of processor against another.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
+#include <utility>
 #include <vector>
 
 #include "evolin_ros/association/descriptor_matching.h"
@@ -87,6 +90,12 @@ cv::Mat randomDescriptors(int rows, double scale, test::RandomLines* random) {
   return descriptors;
 }
 
+MatchingRules rules(bool cross_check) {
+  MatchingRules result;
+  result.cross_check = cross_check;
+  return result;
+}
+
 int nearestRow(const cv::Mat& of, int row, const cv::Mat& among) {
   int nearest = -1;
   double smallest = std::numeric_limits<double>::infinity();
@@ -126,7 +135,7 @@ TEST(DescriptorMatching, EqualsAnExhaustiveSearchAlsoWhereSinglePrecisionCannotT
           expected.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), 0});
         }
       }
-      const LineMatches matches = matchDescriptors(first, second, cross_check);
+      const LineMatches matches = matchDescriptors(first, second, rules(cross_check));
       ASSERT_EQ(matches.size(), expected.size()) << scale;
       for (std::size_t k = 0; k < matches.size(); ++k) {
         EXPECT_EQ(matches[k].first, expected[k].first) << scale;
@@ -134,6 +143,63 @@ TEST(DescriptorMatching, EqualsAnExhaustiveSearchAlsoWhereSinglePrecisionCannotT
       }
     }
   }
+}
+
+// Row i's distances to all rows that it may match, in their order.
+std::vector<std::pair<double, int>> ranked(const cv::Mat& of, int row, const cv::Mat& among,
+                                           const std::function<bool(int)>& may) {
+  std::vector<std::pair<double, int>> distances;
+  for (int j = 0; j < among.rows; ++j) {
+    if (may(j)) {
+      distances.emplace_back(cv::norm(of.row(row), among.row(j)), j);
+    }
+  }
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
+bool standsOut(const std::vector<std::pair<double, int>>& ranked, double ratio) {
+  return ranked.size() < 2 || ranked[0].first < ratio * ranked[1].first;
+}
+
+TEST(DescriptorMatching, EqualsAnExhaustiveSearchWithRatioAndLimits) {
+  test::RandomLines random(4);
+  const auto may = [](int i, int j) { return (7 * i + 3 * j) % 5 != 1; };
+  std::size_t found = 0;
+  for (int round = 0; round < 20; ++round) {
+    const cv::Mat first = randomDescriptors(40, 1, &random);
+    cv::Mat second = randomDescriptors(50, 1, &random);
+    for (int j = 0; j < 25; ++j) {
+      second.row(j) = first.row(j) + 0.2 * second.row(j);
+    }
+    for (const bool cross_check : {false, true}) {
+      MatchingRules chosen = rules(cross_check);
+      chosen.max_ratio = 0.8;
+      chosen.max_distance = 0.6;
+      chosen.may_match = [&](std::size_t i, std::size_t j) {
+        return may(static_cast<int>(i), static_cast<int>(j));
+      };
+      IndexPairs expected;
+      for (int i = 0; i < first.rows; ++i) {
+        const auto there = ranked(first, i, second, [&](int j) { return may(i, j); });
+        if (there.empty() || there[0].first > 0.6 || !standsOut(there, 0.8)) {
+          continue;
+        }
+        const int j = there[0].second;
+        const auto back = ranked(second, j, first, [&](int k) { return may(k, j); });
+        if (!cross_check || (back[0].second == i && standsOut(back, 0.8))) {
+          expected.emplace_back(i, j);
+        }
+      }
+      IndexPairs pairs;
+      for (const LineMatch& match : matchDescriptors(first, second, chosen)) {
+        pairs.emplace_back(match.first, match.second);
+      }
+      EXPECT_EQ(pairs, expected) << "round " << round;
+      found += pairs.size();
+    }
+  }
+  EXPECT_GT(found, 200U);
 }
 
 }  // namespace

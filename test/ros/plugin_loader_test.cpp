@@ -71,6 +71,20 @@ TEST(PluginLoader, LoadsWhatWorks) {
   loader.loadAssociator("lbd")->configure(YAML::Node());
 }
 
+TEST(PluginLoader, GivesEveryAssociatorTheVerificationsParameters) {
+  PluginLoader loader;
+  for (const PluginInfo& info : loader.listAssociators()) {
+    if (!info.why_unavailable.empty() || info.name == "recorded") {  // which asks for its folder
+      continue;
+    }
+    const auto associator = loader.loadAssociator(info.name);
+    associator->configure(YAML::Load("{verify: pose}"));
+    EXPECT_TRUE(associator->needs().depth) << info.name;
+    expectError([&] { associator->configure(YAML::Load("{verify: pose, verify_min_inlier: 9}")); },
+                {"associator " + info.name, "verify_min_inliers"});
+  }
+}
+
 TEST(PluginLoader, NamesTheNearestForAnUnknownOne) {
   PluginLoader loader;
   expectError([&] { loader.loadDetector("open_lsd"); },

@@ -1,13 +1,15 @@
 // Associates lines by the float line band descriptor (Zhang, Koch 2013).
 #pragma once
 
+#include "evolin_ros/association/descriptor_choice.h"
 #include "evolin_ros/association/line_associator.h"
 
 namespace evolin {
 
-struct LbdParameters {
-  bool cross_check = true;  ///< keep a pair only if each line is the other's nearest
-};
+using LbdParameters = DescriptorChoice;
+
+/// More than two float descriptors, of length 1 at most, can differ by.
+constexpr double kLbdLargestDistance = 2;
 
 /// Plug-in `lbd`. `distance` of a match is the Euclidean distance of the descriptors (0 to 2).
 /// Lines without length and lines that have no descriptor (see describeLbd) never match. Throws
@@ -21,7 +23,7 @@ class LbdAssociator : public LineAssociator {
   const LbdParameters& parameters() const { return parameters_; }
 
  private:
-  LbdParameters parameters_;
+  LbdParameters parameters_{kLbdLargestDistance};
   bool configured_ = false;
 };
 

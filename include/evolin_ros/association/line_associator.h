@@ -3,12 +3,26 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cstddef>
+#include <map>
 #include <string>
 
 #include "evolin_ros/dataset/frame.h"
 #include "evolin_ros/dataset/needs.h"
 
 namespace evolin {
+
+/// How often something happened, by what it was.
+using MatchCounts = std::map<std::string, std::size_t>;
+
+/// "3 of this; 5 of that".
+inline std::string toText(const MatchCounts& counts) {
+  std::string text;
+  for (const auto& [what, count] : counts) {
+    text += (text.empty() ? "" : "; ") + std::to_string(count) + " " + what;
+  }
+  return text;
+}
 
 /// Matches the lines of two frames. One instance serves one thread; two instances share nothing.
 class LineAssociator {
@@ -34,6 +48,10 @@ class LineAssociator {
   /// Pairs of indices into `first.lines` and `second.lines`, sorted by the first index.
   /// Descriptions are computed once a frame and kept in FrameLines::description.
   virtual LineMatches match(const FrameLines& first, const FrameLines& second) = 0;
+
+  /// What the reader of the results should know of all matches so far and cannot see in them; a
+  /// driver adds up those of its instances and tells them in the end.
+  virtual MatchCounts counts() const { return {}; }
 };
 
 }  // namespace evolin

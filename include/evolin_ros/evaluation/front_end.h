@@ -68,6 +68,9 @@ class FrontEnd {
   /// The next parts of the recording.
   void process(std::vector<StreamPart> parts, FrontEndSink* sink);
 
+  /// What the associator counted, as one note; empty where it counted nothing.
+  std::vector<std::string> notes() const;
+
   /// Of detection, description and matching.
   const StageTimes& stageTimes() const { return times_; }
 
