@@ -25,26 +25,23 @@ std::vector<std::optional<LineSegment>> moved(const LineSegments& lines, cv::Poi
   return expected;
 }
 
-cv::Point2d translationBetween(const Frame& first, const Frame& second) {
-  const cv::Mat a = toGray(first.image);
-  const cv::Mat b = toGray(second.image);
-  if (a.size() != b.size()) {
-    throw Error(std::string(kOwner) + ": the images are " + std::to_string(a.cols) + "x" +
-                std::to_string(a.rows) + " and " + std::to_string(b.cols) + "x" +
-                std::to_string(b.rows) + ", expected one size");
+cv::Point2d translationBetween(const FrameLines& first, const FrameLines& second) {
+  requireEqualSizes(first, second, kOwner);
+  const cv::Mat a = toGray(first.frame.image);
+  const cv::Mat b = toGray(second.frame.image);
+  const cv::Size half((a.cols + 1) / 2, (a.rows + 1) / 2);
+  if (half.width < 2 || half.height < 2) {
+    return {};  // phase correlation fails on a single row or column
   }
   // Half the size is exact enough for a gate of pixels.
   cv::Mat small_a;
   cv::Mat small_b;
-  const cv::Size half((a.cols + 1) / 2, (a.rows + 1) / 2);
   cv::resize(a, small_a, half, 0, 0, cv::INTER_AREA);
   cv::resize(b, small_b, half, 0, 0, cv::INTER_AREA);
   small_a.convertTo(small_a, CV_32F);
   small_b.convertTo(small_b, CV_32F);
   cv::Mat window;
-  if (half.width > 1 && half.height > 1) {
-    cv::createHanningWindow(window, half, CV_32F);
-  }
+  cv::createHanningWindow(window, half, CV_32F);
   double response = 0;
   const cv::Point2d shift = cv::phaseCorrelate(small_a, small_b, window, &response);
   // Images without texture correlate with nothing.
@@ -81,12 +78,12 @@ LineMatches GeometricAssociator::match(const FrameLines& first, const FrameLines
   if (parameters_.prediction == MotionPrediction::kPose) {
     const SpatialSegments lifted = liftIntoSpace(first, kOwner);
     const Eigen::Isometry3d motion = motionOf(first, second, kOwner);
-    return matchGeometrically(expectIn(second, *first.frame.camera, lifted, motion), second.lines,
+    return matchGeometrically(expectIn(second, lifted, motion, kOwner), second.lines,
                               parameters_.gates);
   }
   const cv::Point2d shift = parameters_.prediction == MotionPrediction::kNone
                                 ? cv::Point2d()
-                                : translationBetween(first.frame, second.frame);
+                                : translationBetween(first, second);
   return matchGeometrically(moved(first.lines, shift), second.lines, parameters_.gates);
 }
 

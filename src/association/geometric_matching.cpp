@@ -128,6 +128,16 @@ LineMatches matchGeometrically(const std::vector<std::optional<LineSegment>>& ex
   return matches;
 }
 
+void requireEqualSizes(const FrameLines& first, const FrameLines& second, const char* owner) {
+  const cv::Size a = first.frame.image.size();
+  const cv::Size b = second.frame.image.size();
+  if (a != b) {
+    throw Error(std::string(owner) + ": the images are " + std::to_string(a.width) + "x" +
+                std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
+                std::to_string(b.height) + ", expected one size");
+  }
+}
+
 SpatialSegments liftIntoSpace(const FrameLines& lines, const char* owner) {
   demand(lines.frame.camera.has_value(), owner, lines.frame, "camera");
   demand(!lines.frame.depth.empty(), owner, lines.frame, "depth");
@@ -150,9 +160,12 @@ Eigen::Isometry3d motionOf(const FrameLines& first, const FrameLines& second, co
   return motionBetween(*first.frame.pose, *second.frame.pose);
 }
 
-std::vector<std::optional<LineSegment>> expectIn(const FrameLines& second, const Camera& camera,
+std::vector<std::optional<LineSegment>> expectIn(const FrameLines& second,
                                                  const SpatialSegments& lines,
-                                                 const Eigen::Isometry3d& motion) {
+                                                 const Eigen::Isometry3d& motion,
+                                                 const char* owner) {
+  demand(second.frame.camera.has_value(), owner, second.frame, "camera");
+  const Camera& camera = *second.frame.camera;
   const cv::Mat& image = second.frame.image;
   std::vector<std::optional<LineSegment>> expected(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {

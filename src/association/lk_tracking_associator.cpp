@@ -38,8 +38,11 @@ std::vector<cv::Mat> pyramidOf(const FrameLines& lines, const LkTrackingParamete
   LkPyramid pyramid;
   pyramid.window = parameters.window;
   pyramid.wanted_levels = parameters.levels;
+  // A window into a larger image mirrors its own pixels, not those around it.
   cv::buildOpticalFlowPyramid(toGray(lines.frame.image), pyramid.levels,
-                              cv::Size(parameters.window, parameters.window), parameters.levels);
+                              cv::Size(parameters.window, parameters.window), parameters.levels,
+                              true, cv::BORDER_REFLECT_101 | cv::BORDER_ISOLATED,
+                              cv::BORDER_CONSTANT, false);
   std::vector<cv::Mat> levels = pyramid.levels;
   lines.description = std::move(pyramid);
   return levels;
@@ -164,13 +167,7 @@ LineMatches LkTrackingAssociator::match(const FrameLines& first, const FrameLine
   if (!configured_) {
     throw Error(std::string(kOwner) + ": match() was called before configure()");
   }
-  const cv::Size size = first.frame.image.size();
-  const cv::Size other = second.frame.image.size();
-  if (size != other) {
-    throw Error(std::string(kOwner) + ": the images are " + std::to_string(size.width) + "x" +
-                std::to_string(size.height) + " and " + std::to_string(other.width) + "x" +
-                std::to_string(other.height) + ", expected one size");
-  }
+  requireEqualSizes(first, second, kOwner);
   const Samples samples = sample(first.lines, parameters_.spacing);
   if (samples.points.empty() || second.lines.empty()) {
     return {};

@@ -42,8 +42,8 @@ LineMatches OracleAssociator::match(const FrameLines& first, const FrameLines& s
   const SpatialSegments of_first = liftIntoSpace(first, kOwner);
   const SpatialSegments of_second = liftIntoSpace(second, kOwner);
   const Eigen::Isometry3d motion = motionOf(first, second, kOwner);
-  LineMatches matches = matchGeometrically(expectIn(second, *first.frame.camera, of_first, motion),
-                                           second.lines, parameters_.gates);
+  LineMatches matches = matchGeometrically(expectIn(second, of_first, motion, kOwner), second.lines,
+                                           parameters_.gates);
   const auto apart = [&](const LineMatch& match) {
     const std::optional<Segment3d>& a = of_first[match.first];
     const std::optional<Segment3d>& b = of_second[match.second];

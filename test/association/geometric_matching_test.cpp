@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "evolin_ros/base/error.h"
 #include "test/association/textured_images.h"
+#include "test/support/expect_error.h"
 
 namespace evolin {
 namespace {
@@ -112,13 +112,7 @@ TEST(MatchGeometrically, GatesOfZeroTakeWhatIsEqual) {
 TEST(ReadGates, RefusesWhatIsOutOfRange) {
   GeometricGates gates;
   ParameterReader reader(YAML::Load("{min_overlap: 1.5}"), "associator test");
-  try {
-    readGates(&reader, &gates);
-    FAIL() << "expected an error";
-  } catch (const ConfigError& error) {
-    EXPECT_NE(std::string(error.what()).find("min_overlap"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("1.5"), std::string::npos) << error.what();
-  }
+  test::expectError<ConfigError>([&] { readGates(&reader, &gates); }, {"min_overlap", "1.5"});
 }
 
 }  // namespace

@@ -115,6 +115,7 @@ TEST(Mlsd, SelectsAndClips) {
   clipping.configure(parametersFor(model, "{clip: true}"));
   for (const LineSegment& line : clipping.detect(frame)) {
     EXPECT_GE(std::min(line.x1, line.x2), -0.5);
+    EXPECT_GE(std::min(line.y1, line.y2), -0.5);
     EXPECT_LE(std::max(line.x1, line.x2), 639.5);
     EXPECT_LE(std::max(line.y1, line.y2), 479.5);
   }

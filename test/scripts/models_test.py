@@ -2,7 +2,9 @@
 """The conversion of network weights (scripts/models): what it refuses, and that both forms of one
 definition agree. Skipped where Python lacks PyTorch, ONNX or OpenCV."""
 
+import inspect
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -166,6 +168,22 @@ class Checkpoints(unittest.TestCase):
                 stream.write(content)
             self.refused(file, name)
         self.refused(os.path.join(self.folder, "none.pth"), "there is no such file")
+
+    def test_a_checkpoint_that_would_run_code_is_refused_without_running_it(self):
+        if "weights_only" not in inspect.signature(torch.load).parameters:
+            self.skipTest("PyTorch before 1.13 unpickles everything")
+        written = os.path.join(self.folder, "written")
+        run = b"cbuiltins\nopen\n(V" + written.encode() + b"\nVw\ntR0"
+        # An unpickler of tensors alone fails on this state with a TypeError; the full one takes it.
+        confusing = b"ccollections\nOrderedDict\n)R(N}tb"
+        file = os.path.join(self.folder, "hostile.pth")
+        with open(file, "wb") as stream:
+            stream.write(b"\x80\x02" + confusing + run + b".")
+        self.refused(file, "hostile.pth: is no PyTorch checkpoint")
+        self.assertFalse(os.path.exists(written), "code of the checkpoint has run")
+        with open(file, "rb") as stream:
+            pickle.load(stream).close()
+        self.assertTrue(os.path.exists(written), "the checkpoint is harmless: it tests nothing")
 
     def test_sizes_that_the_network_cannot_have_are_refused(self):
         file = self.save(as_state_dict(random_convolutions("tiny")))

@@ -47,14 +47,19 @@ using SpatialSegments = std::vector<std::optional<Segment3d>>;
 /// where depth or camera is missing.
 SpatialSegments liftIntoSpace(const FrameLines& lines, const char* owner);
 
+/// Throws Error naming `owner` and both sizes where the frames' images differ in size.
+void requireEqualSizes(const FrameLines& first, const FrameLines& second, const char* owner);
+
 /// The motion from the camera of `first` to that of `second`. Throws Error naming `owner` and the
 /// frame where a pose is missing.
 Eigen::Isometry3d motionOf(const FrameLines& first, const FrameLines& second, const char* owner);
 
-/// Where such lines of `first` should be seen in `second` after `motion`; none behind the camera
-/// and outside the image.
-std::vector<std::optional<LineSegment>> expectIn(const FrameLines& second, const Camera& camera,
+/// Where such lines of another frame should be seen by the camera of `second` after `motion`; none
+/// behind the camera and outside the image. Throws Error naming `owner` and the frame where its
+/// camera is missing.
+std::vector<std::optional<LineSegment>> expectIn(const FrameLines& second,
                                                  const SpatialSegments& lines,
-                                                 const Eigen::Isometry3d& motion);
+                                                 const Eigen::Isometry3d& motion,
+                                                 const char* owner);
 
 }  // namespace evolin

@@ -63,7 +63,7 @@ class OnnxGraph:
     def __init__(self, weights):
         self._weights = weights
         self._nodes = []
-        self._constants = []
+        self._constants = {}
         self._names = {}
 
     def input(self, name, shape):
@@ -119,12 +119,12 @@ class OnnxGraph:
             self._nodes, network,
             [helper.make_tensor_value_info(image.name, TensorProto.FLOAT, image.shape)],
             [helper.make_tensor_value_info(output_name, TensorProto.FLOAT, output.shape)],
-            [tensor for _, tensor in sorted(self._constants, key=lambda entry: entry[0])])
+            [self._constants[name] for name in sorted(self._constants)])
 
     def _constant(self, name, value):
         from onnx import numpy_helper
-        if name not in [known for known, _ in self._constants]:
-            self._constants.append((name, numpy_helper.from_array(np.asarray(value), name)))
+        if name not in self._constants:
+            self._constants[name] = numpy_helper.from_array(np.asarray(value), name)
         return name
 
     def _node(self, kind, inputs, name, shape, **attributes):

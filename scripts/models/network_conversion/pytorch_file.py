@@ -1,6 +1,6 @@
 """Convolutions of a PyTorch state dict, with the batch norms behind them folded in."""
 
-import pickle
+import inspect
 
 import numpy as np
 
@@ -11,14 +11,14 @@ NORM = ("weight", "bias", "running_mean", "running_var")
 
 
 def read(file):
-    """Tensors by name, as numpy arrays. Nothing but tensors is unpickled where PyTorch can refuse it."""
+    """Tensors by name, as numpy arrays. From PyTorch 1.13 on nothing but tensors is unpickled; before
+    that, reading a checkpoint runs whatever code it holds."""
     import torch
+    knows = "weights_only" in inspect.signature(torch.load).parameters
+    safely = {"weights_only": True} if knows else {}
     try:
-        try:
-            content = torch.load(file, map_location="cpu", weights_only=True)
-        except TypeError:  # before PyTorch 1.13
-            content = torch.load(file, map_location="cpu")
-    except (RuntimeError, EOFError, KeyError, ValueError, AttributeError, pickle.UnpicklingError) as error:
+        content = torch.load(file, map_location="cpu", **safely)
+    except Exception as error:  # damage makes an unpickler raise anything
         raise ConversionError("%s: is no PyTorch checkpoint, or damaged: %s" % (file, error))
     if isinstance(content, dict) and isinstance(content.get("state_dict"), dict):
         content = content["state_dict"]
