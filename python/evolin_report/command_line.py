@@ -60,7 +60,7 @@ def needed(name, what):
         __import__(name)
     except ImportError as error:
         raise ReportError("%s needs the Python module %s, which cannot be imported (%s); install "
-                          "python3-%s" % (what, name, error, {"yaml": "yaml"}.get(name, name)))
+                          "python3-%s" % (what, name, error, name))
 
 
 def make_report(options):
@@ -113,7 +113,7 @@ def run(arguments):
 
 
 def main(arguments):
-    """The exit status; throws nothing."""
+    """The exit status; what is wrong with arguments or data is told on standard error."""
     try:
         run(arguments)
         return EXIT_DONE

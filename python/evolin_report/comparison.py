@@ -10,6 +10,7 @@ import numpy as np
 
 from .errors import ReportError, UsageError
 from .figures import Figure, missing
+from .results import number
 from .tables import HIGH, LOW, NONE, Column, Table
 
 LEVEL = 0.95
@@ -138,12 +139,7 @@ class Aligned:
         return all(name in names_of_run for name in names for names_of_run in self.names)
 
     def column(self, run, name):
-        def convert(text):
-            try:
-                return float(text)
-            except ValueError:
-                return math.nan
-        return np.array([convert(row[name]) for row in self.rows[run]], float)
+        return np.array([number(row[name]) for row in self.rows[run]], float)
 
 
 def detection_rows(runs, frames):

@@ -12,6 +12,8 @@ import zipfile
 
 import numpy as np
 
+from .errors import ReportError
+
 ERRORS = (("translation", "translation_error_m", "RPE w.r.t. translation part (m)", "RPE (m)"),
           ("rotation", "rotation_error_deg", "RPE w.r.t. rotation angle (deg)", "RPE (deg)"))
 TUM_FILES = (("reference", "relative_motion_ground_truth.tum"),
@@ -32,15 +34,24 @@ def array_bytes(array):
 
 
 def read_motions(path):
-    """Stamp (as text) to (translation, quaternion x y z w) of a file in TUM's form."""
+    """Stamp (as text) to (translation, quaternion x y z w) of a file in TUM's form; none where
+    there is no file. Throws ReportError naming file and line."""
     motions = {}
-    if os.path.exists(path):
-        with open(path, encoding="utf-8") as file:
-            for line in file:
-                parts = line.split()
-                if len(parts) == 8 and not parts[0].startswith("#"):
-                    numbers = [float(part) for part in parts[1:]]
-                    motions[parts[0]] = (np.array(numbers[:3]), np.array(numbers[3:]))
+    if not os.path.exists(path):
+        return motions
+    with open(path, encoding="utf-8", errors="replace") as file:
+        for index, line in enumerate(file, 1):
+            parts = line.split()
+            if not parts or parts[0].startswith("#"):
+                continue
+            try:
+                numbers = [float(part) for part in parts]
+            except ValueError:
+                numbers = []
+            if len(numbers) != 8:
+                raise ReportError("%s:%d: is %r, expected eight numbers: stamp, translation, "
+                                  "quaternion" % (path, index, line.strip()))
+            motions[parts[0]] = (np.array(numbers[1:4]), np.array(numbers[4:]))
     return motions
 
 
@@ -89,15 +100,15 @@ def longest_chain(pairs):
     return best
 
 
-def archive_bytes(run, name, column, title, label):
+def archive_bytes(run, column, title, label):
     """The zip of one kind of error, or the reason why there is none."""
     table = run.table("poses")
-    kept = [row for row in table.rows if not row.get("reason") and row.get(column) and
-            math.isfinite(float(row[column]))]
+    kept = [row for row in table.rows if not row["reason"] and row[column] and
+            math.isfinite(row.number(column))]
     if not kept:
         return None, run.section("pose").get("reason") or "no pose was found for any pair"
-    errors = np.array([float(row[column]) for row in kept])
-    stamps = np.array([float(row["stamp"]) for row in kept])
+    errors = np.array([row.number(column) for row in kept])
+    stamps = np.array([row.number("stamp") for row in kept])
     motions = [(key, read_motions(os.path.join(run.folder, file))) for key, file in TUM_FILES]
     known = [(row["first_stamp"], row["stamp"]) for row in kept
              if all(row["stamp"] in motion for _, motion in motions)]
@@ -126,7 +137,7 @@ def write_results(report, folder):
     notes = []
     for run, name in zip(report.runs, report.names()):
         for kind, column, title, label in ERRORS:
-            content, reason = archive_bytes(run, name, column, title, label)
+            content, reason = archive_bytes(run, column, title, label)
             if content is None:
                 if kind == ERRORS[0][0]:
                     notes.append("no evo file of %s: %s" % (run.id, run.reason or reason))

@@ -138,7 +138,8 @@ def to_latex(report, intervals=True):
 
 
 def to_csv(report, intervals=True):
-    """One figure a line, raw: ratios from 0 to 1, seconds and metres as the report has them."""
+    """One figure a line, raw: ratios from 0 to 1, milliseconds and metres as the report has
+    them."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["sequence", "table", "run", "row", "figure", "value"] +

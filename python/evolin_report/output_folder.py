@@ -9,6 +9,11 @@ from .errors import ReportError
 MARKER = "report.txt"
 
 
+def plain_file_name(text):
+    """The text in letters that every file system takes; others become "_"."""
+    return "".join(c if c.isalnum() or c in "-_." else "_" for c in text)
+
+
 class OutputFolder:
     """A hidden folder beside the final one, which gets its name when the `with` block ends well.
 

@@ -96,7 +96,7 @@ def worst_frames_html(run, most):
             '<span class="wrong">%s wrong</span>, <span class="missed">%s missed</span>'
             '</figcaption></figure>' % (
                 data_uri(content, "image/jpeg"), escape(run.label()), escape(row["stamp"]),
-                escape(row["stamp"]), 100 * float(row["f_score"]), escape(row["true_positives"]),
+                escape(row["stamp"]), 100 * row.number("f_score"), escape(row["true_positives"]),
                 escape(row["false_positives"]), escape(row["misses"])))
     if not pictures:
         return ""

@@ -11,6 +11,8 @@ import numpy as np  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 
 from . import tables  # noqa: E402
+from .figures import find_entry  # noqa: E402
+from .output_folder import plain_file_name  # noqa: E402
 
 # Seen apart with any colour vision (Okabe and Ito), then others for large matrices.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#7F3C8D",
@@ -45,14 +47,14 @@ def new_figure(panels, height=3.1):
     return figure, [figure.add_subplot(1, panels, 1 + index) for index in range(panels)]
 
 
-def legend(axes, runs):
+def legend(axes):
     handles, labels = axes.get_legend_handles_labels()
     unique = dict(zip(labels, handles))
     if unique:
         axes.legend(unique.values(), unique.keys(), fontsize=7, ncol=1 + len(unique) // 9)
 
 
-def hide_if_empty(figure, axes, reason):
+def hide_if_empty(axes, reason):
     """A panel without data says so instead of showing an empty frame."""
     if axes.has_data():
         return True
@@ -64,9 +66,9 @@ def hide_if_empty(figure, axes, reason):
 
 def curve_points(run, distance, threshold):
     table = run.table("curves")
-    kept = [row for row in table.rows if row.get("distance") == distance and
-            float(row.get("threshold") or "nan") == threshold]
-    return ([float(row["recall"]) for row in kept], [float(row["precision"]) for row in kept])
+    kept = [row for row in table.rows
+            if row["distance"] == distance and row.number("threshold") == threshold]
+    return [row.number("recall") for row in kept], [row.number("precision") for row in kept]
 
 
 def isolines(axes):
@@ -90,9 +92,7 @@ def precision_recall(sequence, runs, pen):
         recall, precision = curve_points(run, "structural", threshold)
         if recall:
             panels[0].plot(recall, precision, label=run.label(), linewidth=1.4, **pen.of(run))
-        entry = next((entry for entry in run.section("detection").get("entries") or []
-                      if entry.get("distance") == "structural" and
-                      entry.get("threshold") == threshold), None)
+        entry = find_entry(run.section("detection"), distance="structural", threshold=threshold)
         if entry and entry.get("precision") is not None:
             panels[0].plot([entry["recall"]], [entry["precision"]], "o", markersize=4,
                            color=pen.of(run)["color"], label=None if recall else run.label())
@@ -110,10 +110,10 @@ def precision_recall(sequence, runs, pen):
     if not drawn:
         return None
     for axes, title in zip(panels, ("structural distance %g" % threshold, "pixels (heatmap)")):
-        if hide_if_empty(figure, axes, title + ": nothing was evaluated"):
+        if hide_if_empty(axes, title + ": nothing was evaluated"):
             isolines(axes)
             axes.set(title=title, xlabel="recall", ylabel="precision", xlim=(0, 1), ylim=(0, 1.02))
-            legend(axes, runs)
+            legend(axes)
     return Plot("precision_recall", "Precision and recall", sequence, figure,
                 "Curves over the score; a dot is all lines of a method.")
 
@@ -145,7 +145,7 @@ def repeatability(sequence, runs, pen):
     panels[0].set(title="%g frames apart" % step, xlabel="threshold, px of 128 x 128",
                   ylabel="repeatability", ylim=(0, 1.02))
     panels[1].set(title="threshold %g" % threshold, xlabel="frames apart", ylim=(0, 1.02))
-    legend(panels[0], runs)
+    legend(panels[0])
     return Plot("repeatability", "Repeatability over thresholds and frame distance", sequence,
                 figure, "Structural distance, all lines.")
 
@@ -173,11 +173,11 @@ def pose(sequence, runs, pen):
     if not any(axes.has_data() for axes in panels):
         return None
     for axes, (_, label) in zip(panels, columns):
-        if hide_if_empty(figure, axes, label + ": no pair"):
+        if hide_if_empty(axes, label + ": no pair"):
             axes.set(xlabel=label, ylim=(0, 1.02))
             axes.set_xlim(left=0)
     panels[0].set_ylabel("share of pairs")
-    legend(panels[0], runs)
+    legend(panels[0])
     return Plot("pose", "Cumulative error of relative poses", sequence, figure,
                 "Failed pairs count: a curve that ends below 1 has as many.")
 
@@ -227,7 +227,7 @@ def over_time(sequence, runs, pen):
     if not axes.has_data():
         return None
     axes.set(xlabel="s", ylabel="F-score, structural %g" % threshold, ylim=(0, None))
-    legend(axes, runs)
+    legend(axes)
     return Plot("over_time", "F-score over time", sequence, figure, "Frame by frame.")
 
 
@@ -249,7 +249,7 @@ def make_plots(runs):
 
 
 def file_name(plot):
-    sequence = "".join(c if c.isalnum() or c in "-_." else "_" for c in plot.sequence)
+    sequence = plain_file_name(plot.sequence)
     return "%s_%s" % (sequence, plot.name) if sequence else plot.name
 
 

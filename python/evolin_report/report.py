@@ -3,6 +3,7 @@
 import os
 
 from . import tables
+from .output_folder import plain_file_name
 from .results import parameters_of
 
 TITLE = "Evaluation of line front-ends"
@@ -52,8 +53,8 @@ class Report:
             text, ", with 95 % intervals where the runs computed them" if intervals else "")
 
     def origin_titles(self):
-        return ["state", "program", "protocol", "input", "sha256", "parameters", "machine",
-                "written"]
+        return ["state", "program", "protocol", "input", "input options", "sha256", "parameters",
+                "machine", "written"]
 
     def origins(self):
         """(run, values by origin_titles()) of every run."""
@@ -64,8 +65,10 @@ class Report:
                                  else "")
             parameters = parameters_of(run.report) or provenance.get("parameters")
             found.append((run.id, [state, flat(run.report.get("program")), flat(run.protocol),
-                                   flat(provenance.get("input")), flat(provenance.get("sha256")),
-                                   flat(parameters), flat(provenance.get("machine")),
+                                   flat(provenance.get("input")),
+                                   flat(provenance.get("input_options")),
+                                   flat(provenance.get("sha256")), flat(parameters),
+                                   flat(provenance.get("machine")),
                                    flat(provenance.get("written"))]))
         return found
 
@@ -85,8 +88,7 @@ class Report:
         """A file name for each run, unique, of letters that every file system takes."""
         found, names = set(), []
         for run in self.runs:
-            plain = "".join(c if c.isalnum() or c in "-_." else "_" for c in
-                            os.path.basename(run.id)) or "run"
+            plain = plain_file_name(os.path.basename(run.id)) or "run"
             name, number = plain, 1
             while name in found:
                 number += 1

@@ -36,19 +36,34 @@ def expect_object(value, path):
     return value
 
 
-class Column(list):
-    """A column of a CSV table as numbers; NaN where a cell is empty or no number."""
-
-
 def number(text):
+    """NaN where the text is empty or no number."""
     try:
         return float(text)
     except ValueError:
         return math.nan
 
 
+class Row(dict):
+    """A row of a CSV table: texts by the names of the header. `where` is its "FILE:LINE"."""
+
+    def __init__(self, cells, where):
+        super().__init__(cells)
+        self.where = where
+
+    def __missing__(self, name):
+        raise ReportError("%s: there is no column %r" % (self.where, name))
+
+    def number(self, name):
+        """Throws ReportError naming file, line and value where the cell holds none."""
+        try:
+            return float(self[name])
+        except ValueError:
+            raise ReportError("%s: %s is %r, expected a number" % (self.where, name, self[name]))
+
+
 class Table:
-    """A CSV file with a header; `rows` are dictionaries of texts."""
+    """A CSV file with a header; `rows` are Rows, none where there is no file."""
 
     def __init__(self, path):
         self.path = path
@@ -64,7 +79,7 @@ class Table:
                     if None in row or None in row.values():
                         raise ReportError("%s:%d: expected %d cells, as the header has" % (
                             path, reader.line_num, len(self.names)))
-                    self.rows.append(row)
+                    self.rows.append(Row(row, "%s:%d" % (path, reader.line_num)))
         except OSError as error:
             raise ReportError("%s: %s" % (path, error.strerror))
         except (csv.Error, UnicodeDecodeError) as error:
@@ -74,10 +89,11 @@ class Table:
         return len(self.rows)
 
     def column(self, name):
-        """NaN throughout where the table has no such column."""
+        """Its numbers, NaN where a cell is empty or no number; throughout where the table has no
+        such column."""
         if name not in self.names:
-            return Column([math.nan] * len(self.rows))
-        return Column(number(row[name]) for row in self.rows)
+            return [math.nan] * len(self.rows)
+        return [number(row[name]) for row in self.rows]
 
 
 class Run:
@@ -187,16 +203,28 @@ def method_name(cell, kind):
     return "" if name is None or name == "none" else str(name)
 
 
+def with_own_record(entry, folder):
+    """An entry of matrix.json with what cell.json in the cell's folder says, which is the newer of
+    the two; but not where that is of another content, by inputs or parameters that have changed
+    since."""
+    path = os.path.join(folder, "cell.json")
+    if not os.path.exists(path):
+        return entry
+    record = expect_object(read_json(path), path)
+    if "content_hash" not in entry or entry["content_hash"] == record.get("content_hash"):
+        return dict(entry, **{key: value for key, value in record.items() if value is not None})
+    if entry.get("state") != "finished":
+        return entry
+    return dict(entry, state="pending", reason="its results are of another content than %s says; "
+                "`evolin benchmark --collect` writes that anew" % MATRIX)
+
+
 def read_cell(root, entry, path):
-    """A cell of matrix.json with what its own folder says, which is the newer of the two."""
+    """A cell of matrix.json with its report, where it is finished."""
     if not isinstance(entry, dict) or not isinstance(entry.get("id"), str):
         raise ReportError("%s: expected cells with an id each, got %r" % (path, entry))
     folder = os.path.join(root, "cells", entry["id"])
-    cell = dict(entry)
-    cell_path = os.path.join(folder, "cell.json")
-    if os.path.exists(cell_path):
-        cell.update({key: value for key, value in expect_object(
-            read_json(cell_path), cell_path).items() if value is not None})
+    cell = with_own_record(entry, folder)
     report = {}
     if os.path.exists(os.path.join(folder, REPORT)):
         report = read_report(folder)

@@ -5,9 +5,9 @@
 
 #include "evolin_ros/base/availability.h"
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/base/stop_watch.h"
 #include "evolin_ros/inference/image_tensor.h"
 #include "lsdnet_decoding.h"
-#include "stop_watch.h"
 
 namespace evolin {
 namespace {
@@ -57,13 +57,14 @@ class LsdNet::Engine {
   LineSegments detect(const Frame& frame, NetworkTimes* times) {
     StopWatch watch;
     const cv::Mat& input = tensor_.of(frame.image);
-    times->preparing = watch.lap();
+    times->preparing = watch.milliseconds();
     const cv::Mat& maps = network_.run(input).front();
-    times->forward = watch.lap();
+    times->forward = network_.lastMilliseconds();
+    watch.restart();
     LineSegments lines = decoder_.decode(maps, frame.image.size());
     lines = clip_ ? filter_.apply(std::move(lines), frame.image.size(), kOwner)
                   : filter_.applyUncut(std::move(lines), frame.image.size(), kOwner);
-    times->decoding = watch.lap();
+    times->decoding = watch.milliseconds();
     return lines;
   }
 

@@ -98,10 +98,10 @@ void FrontEnd::detect(const std::vector<StreamPart>& parts, std::vector<Outcome>
 void FrontEnd::detectIn(const ImagePart& image, std::size_t worker, Outcome* outcome) {
   LineDetector& detector = *detectors_[worker];
   LineSet set;
-  const Stopwatch stopwatch;
+  const StageClock clock;
   const std::string why =
       problemOf([&] { set.lines = selectLines(detector.detect(image.frame), options_.selection); });
-  const StageTime time = stopwatch.elapsed();
+  const StageTime time = clock.elapsed();
   worker_times_[worker].add(Stage::kDetect, time);
   set.processing_time = detector.processingTime().value_or(time.wall);
   if (!why.empty()) {
@@ -224,10 +224,10 @@ void FrontEnd::matchPair(std::size_t worker, Pair* pair) {
   set.stamp = pair->second->frame.stamp;
   set.source = options_.matches_source;
   set.lines_source = options_.associate_ground_truth ? truth_source_ : options_.lines_source;
-  const Stopwatch stopwatch;
+  const StageClock clock;
   const std::string why =
       problemOf([&] { set.matches = associators_[worker]->match(*pair->first, *pair->second); });
-  const StageTime time = stopwatch.elapsed();
+  const StageTime time = clock.elapsed();
   set.processing_time = time.wall;
   worker_times_[worker].add(Stage::kMatch, time);
   if (!why.empty()) {

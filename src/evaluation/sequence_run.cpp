@@ -72,7 +72,7 @@ class Run : public FrontEndSink {
     timing.stages = times_;
     timing.stages.add(front_end_.stageTimes());
     timing.stages.add(evaluator_.current().stageTimes());
-    timing.wall = stopwatch_.elapsed().wall;
+    timing.wall = watch_.seconds();
     timing.recorded = recordedSeconds();
     timing.frames = images_;
     timing.threads = options_.threads;
@@ -152,7 +152,7 @@ class Run : public FrontEndSink {
   }
 
   const SequenceRunOptions& options_;
-  Stopwatch stopwatch_;
+  StopWatch watch_;
   WorkerPool pool_;
   FrontEnd front_end_;
   StreamEvaluator evaluator_;

@@ -16,12 +16,9 @@ double threadSeconds() {
 
 }  // namespace
 
-Stopwatch::Stopwatch() : wall_(std::chrono::steady_clock::now()), processor_(threadSeconds()) {}
+StageClock::StageClock() : processor_(threadSeconds()) {}
 
-StageTime Stopwatch::elapsed() const {
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(),
-          threadSeconds() - processor_};
-}
+StageTime StageClock::elapsed() const { return {wall_.seconds(), threadSeconds() - processor_}; }
 
 std::string toString(Stage stage) {
   switch (stage) {

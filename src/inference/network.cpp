@@ -2,12 +2,12 @@
 #include "evolin_ros/inference/network.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "evolin_opencv_features.h"
 #include "evolin_ros/base/availability.h"
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/base/stop_watch.h"
 #include "evolin_ros/inference/model_files.h"
 #include "network_engine.h"
 
@@ -44,8 +44,10 @@ std::filesystem::path locate(const NetworkInterface& interface, const std::strin
   }
   const std::string where =
       model.find('/') == std::string::npos ? " in " + searchedFolders() : std::string();
-  throw ConfigError(interface.owner, "model",
-                    "there is no file '" + model + "'" + where + ". " + interface.how_to_get);
+  // The rest of the parameters may be right: what lacks is the method's network, as it may be
+  // the module that runs it.
+  throw UnavailableError(interface.owner + ": parameter 'model': there is no file '" + model + "'" +
+                         where + ". " + interface.how_to_get);
 }
 
 OnnxFile readChecked(const NetworkInterface& interface, const std::filesystem::path& file,
@@ -163,15 +165,14 @@ const std::vector<cv::Mat>& Network::run(const cv::Mat& input) {
                 toText(TensorInfo{interface_.input.name, shape}) + "; expected " +
                 toText(TensorInfo{interface_.input.name, input_shape_}));
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const StopWatch watch;
   try {
     engine_->run(input, &outputs_);
   } catch (const cv::Exception& error) {
     throw Error(interface_.owner + ": " + file_ + ": OpenCV " + CV_VERSION +
                 " cannot run it: " + error.err);
   }
-  last_milliseconds_ =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  last_milliseconds_ = watch.milliseconds();
   return outputs_;
 }
 

@@ -105,7 +105,6 @@ class Graph {
     for (const std::string_view node : nodes) {
       readNode(node);
     }
-    file_->nodes = nodes.size();
     for (const TensorInfo& output : file_->outputs) {
       if (known_.count(output.name) == 0) {
         throw Malformed("nothing makes the output " + quote(output.name));

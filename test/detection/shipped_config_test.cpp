@@ -188,14 +188,16 @@ void expectHoldsAllDefaultsOfANetwork(const std::string& name) {
   const auto defaults = values(Detector().parameters());
   EXPECT_EQ(file.size(), std::tuple_size<std::decay_t<decltype(defaults)>>::value);
   EXPECT_EQ(file["model"].as<std::string>(), Detector().parameters().network.model);
+  if (!whyNoNetworks().empty()) {
+    GTEST_SKIP() << whyNoNetworks();
+  }
   Detector detector;
   try {
     detector.configure(file);
     EXPECT_TRUE(values(detector.parameters()) == defaults);
   } catch (const UnavailableError& error) {
-    GTEST_SKIP() << error.what();
-  } catch (const ConfigError& error) {
-    EXPECT_EQ(error.key(), "model") << error.what();
+    EXPECT_NE(std::string(error.what()).find("parameter 'model'"), std::string::npos)
+        << error.what();
   }
 }
 

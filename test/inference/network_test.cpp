@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "evolin_ros/inference/model_catalogue.h"
 #include "evolin_ros/inference/model_files.h"
 #include "test/inference/onnx_bytes.h"
+#include "test/support/environment.h"
 #include "test/support/expect_error.h"
 #include "test/support/fuzz.h"
 #include "test/support/temporary_folder.h"
@@ -16,31 +15,7 @@ namespace evolin {
 namespace {
 
 namespace onnx = test::onnx;
-
-/// Sets an environment variable and puts the old value back.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    const char* old = std::getenv(name);
-    had_ = old != nullptr;
-    old_ = had_ ? old : "";
-    setenv(name, value.c_str(), 1);
-  }
-  ~Variable() {
-    if (had_) {
-      setenv(name_, old_.c_str(), 1);
-    } else {
-      unsetenv(name_);
-    }
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  bool had_;
-  std::string old_;
-};
+using test::Variable;
 
 class NetworkTest : public ::testing::Test {
  protected:
@@ -80,7 +55,7 @@ TEST_F(NetworkTest, Runs) {
   for (std::size_t i = 0; i < input.total(); ++i) {
     EXPECT_EQ(answers[0].ptr<float>()[i], std::abs(static_cast<float>(i) - 20));
   }
-  EXPECT_GE(network.lastMilliseconds(), 0);
+  EXPECT_GT(network.lastMilliseconds(), 0);
   test::expectError([&] { network.run(cv::Mat(4, 4, CV_32F)); },
                     {"detector test", "'image' [4, 4]", "'image' [1, 3, 4, 4]"});
 }
@@ -118,6 +93,17 @@ TEST_F(NetworkTest, VerifiesUnlessToldNotTo) {
   NetworkInterface knowing = absolute();
   knowing.digests = {readOnnxFile(options.model).digest};
   EXPECT_NO_THROW(Network(knowing, options));
+}
+
+TEST_F(NetworkTest, AFileThatIsNotThereIsUnavailableAndSaysHowToGetIt) {
+  NetworkOptions options;
+  options.model = "no_such.onnx";
+  const Variable home("ROS_HOME", folder_.path().string());
+  test::expectError<UnavailableError>(
+      [&] { Network(absolute(), options); },
+      {"detector test", "'model'", "'no_such.onnx'", folder_.path().string(), "Ask its author."});
+  options.model = "";
+  test::expectError<ConfigError>([&] { Network(absolute(), options); }, {"'model'", "empty"});
 }
 
 TEST_F(NetworkTest, AnOperationThatOpenCvLacksIsAnError) {

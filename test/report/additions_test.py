@@ -65,6 +65,7 @@ class Published(ReportTest):
         for table, _, _ in published.figures:
             self.assertIn(table, known)
         self.assertEqual(published.name("living_room_traj2_frei_png"), "icllrkt2")
+        self.assertEqual(published.name("mlsd"), published.name("m_lsd"))
 
 
 def motion_rows(motions):

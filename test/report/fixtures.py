@@ -81,6 +81,7 @@ def report(source="lsd", **sections):
                                       "reason": "no message carried a processing time"}},
             "notes": [],
             "provenance": {"input": {"folder": "/data/room_sequence", "layout": "evolin"},
+                           "input_options": {"start": "1.5"},
                            "machine": {"processor": "a processor", "threads": 2},
                            "parameters": {"detector": source, "associator": "lbd"},
                            "sha256": {"room.bag": "0123abcd"},

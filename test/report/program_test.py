@@ -3,11 +3,13 @@
 usage: program_test.py EVOLIN [unittest options]
 """
 
+import errno
 import json
 import os
 import signal
 import subprocess
 import sys
+import time
 import unittest
 
 from fixtures import ROOT, ReportTest, frame_rows, report
@@ -27,6 +29,18 @@ class ProgramTest(ReportTest):
                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                  stderr=subprocess.PIPE, universal_newlines=True)
         return process.returncode, process.stdout, process.stderr
+
+    def opened_by_a_reader(self, path, process):
+        """A pipe that the program has begun to read: from then on it waits for us."""
+        end = time.monotonic() + LIMIT
+        while True:
+            try:
+                return os.fdopen(os.open(path, os.O_WRONLY | os.O_NONBLOCK), "w")
+            except OSError as error:
+                self.assertEqual(error.errno, errno.ENXIO)
+            self.assertIsNone(process.poll(), "the program ended before it read " + path)
+            self.assertLess(time.monotonic(), end, "the program does not read " + path)
+            time.sleep(0.01)
 
     def test_prints_tables_and_ends_well(self):
         status, text, _ = self.evolin(self.run_directory("a"))
@@ -70,8 +84,7 @@ class ProgramTest(ReportTest):
                                    env=self.environment(), stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, universal_newlines=True)
         self.addCleanup(process.kill)
-        # Opening waits until the program reads: from then on it waits for us.
-        with open(self.path("a", "report.json"), "w"):
+        with self.opened_by_a_reader(self.path("a", "report.json"), process):
             process.send_signal(signal.SIGINT)
             _, message = process.communicate(timeout=LIMIT)
         self.assertEqual(process.returncode, 130)
@@ -111,6 +124,35 @@ class ProgramTest(ReportTest):
         self.assertIn("poses.csv:2", message)
         self.assertEqual(sorted(os.listdir(self.folder)), ["a", "out"])
         self.assertTrue(os.path.exists(self.path("out", "tables.md")))
+
+    def test_what_is_malformed_is_named_by_file_and_line(self):
+        pose = "first_stamp,stamp,step,translation_error_m,rotation_error_deg,reason\n"
+        curve = "family,distance,threshold,recall,precision\n"
+        for name, text, option, place in (
+                ("worst_frames.csv", "stamp,file,distance,threshold,f_score,true_positives,"
+                 "false_positives,misses\n1.0,1.jpg,structural,5,much,1,2,3\n", "--html",
+                 "worst_frames.csv:2: f_score is 'much'"),
+                ("worst_frames.csv", "stamp\n1.0\n", "--html",
+                 "worst_frames.csv:2: there is no column 'file'"),
+                ("curves.csv", curve + "detection,structural,10,half,0.5\n", "--plots",
+                 "curves.csv:2: recall is 'half'"),
+                ("curves.csv", curve + "detection,structural,ten,0.5,0.5\n", "--plots",
+                 "curves.csv:2: threshold is 'ten'"),
+                ("poses.csv", pose + "0.0,1.0,1,0.1,0.2,\n1.0,2.0,1,far,0.2,\n", "--evo",
+                 "poses.csv:3: translation_error_m is 'far'"),
+                ("poses.csv", pose + "0.0,late,1,0.1,0.2,\n", "--evo",
+                 "poses.csv:2: stamp is 'late'"),
+                ("relative_motion_estimate.tum", "# stamps\n1.0 0 0 0 0 0 one 1\n", "--evo",
+                 "relative_motion_estimate.tum:2: ")):
+            folder = self.run_directory("a", frames=frame_rows([(1, 2, 3)] * 3))
+            self.write("a/1.jpg", "picture")
+            self.write("a/poses.csv", pose + "0.0,1.0,1,0.1,0.2,\n")
+            self.write("a/" + name, text)
+            status, _, message = self.evolin(folder, "-o", self.path("out"), "-q", option)
+            self.assertEqual(status, 1, (name, message))
+            self.assertIn(place, message)
+            self.assertNotIn("Traceback", message)
+            os.remove(self.path("a", name))
 
     def test_plots_come_as_png_and_svg(self):
         folder = self.run_directory("a", frames=frame_rows([(1, 2, 3)] * 3))

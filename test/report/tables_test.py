@@ -92,7 +92,7 @@ class Content(TablesTest):
     def test_origins_name_protocol_program_parameters_hashes_and_machine(self):
         text = formats.to_markdown(self.make(self.run_directory("a")))
         for word in ("evolin_ros 0.1.0", "`evolin`", "detector=lsd", "room.bag=0123abcd",
-                     "a processor", "2026-01-02T03:04:05"):
+                     "start=1.5", "a processor", "2026-01-02T03:04:05"):
             self.assertIn(word, text)
 
     def test_runs_of_different_protocols_do_not_pass_unnoticed(self):
@@ -190,6 +190,27 @@ class Benchmark(TablesTest):
         self.assertEqual(self.cell(made, "detection", "sP5")[0].reason, "pending: not run yet")
 
 
+    def changed(self, state, in_matrix, in_cell):
+        """A cell whose folder holds a finished report, of another content or the same."""
+        entry = {"id": "a", "sequence": "room", "detector": "lsd", "associator": "lbd",
+                 "state": state, "content_hash": in_matrix, "reason": None}
+        root = self.benchmark("root", [(entry, report())])
+        self.write("root/cells/a/cell.json",
+                   dict(entry, state="finished", content_hash=in_cell, error=None))
+        run, = read_results([root])
+        return run.state, run.reason, bool(run.report)
+
+    def test_a_cell_of_another_content_is_not_shown(self):
+        self.assertEqual(self.changed("pending", "new", "old"), ("pending", "not run yet", False))
+        self.assertEqual(self.changed("unavailable", None, "old"),
+                         ("unavailable", "unavailable", False))
+        state, reason, shown = self.changed("finished", "old", "new")
+        self.assertEqual((state, shown), ("pending", False))
+        self.assertIn("--collect", reason)
+
+    def test_a_cell_that_was_run_since_the_matrix_was_written_is_shown(self):
+        self.assertEqual(self.changed("pending", "new", "new"), ("finished", "", True))
+
     def test_settings_that_measure_different_things_do_not_fill_each_others_tables(self):
         def entry(name, detector, associator, setting, state="finished", reason=None):
             return {"id": name, "sequence": "room", "detector": detector,
@@ -257,6 +278,16 @@ class Refusals(TablesTest):
         self.write("a/frames.csv", "stamp,state\n1.0,evaluated\n2.0\n")
         with self.assertRaisesRegex(ReportError, r"frames\.csv:3: expected 2 cells"):
             read_results([folder])[0].table("frames")
+
+    def test_a_cell_that_is_no_number_and_a_column_that_lacks(self):
+        folder = self.run_directory("a")
+        self.write("a/frames.csv", "stamp,state\n1.0,evaluated\n2.0,lost\n")
+        row = read_results([folder])[0].table("frames").rows[1]
+        self.assertEqual(row.number("stamp"), 2.0)
+        with self.assertRaisesRegex(ReportError, r"frames\.csv:3: state is 'lost', expected a num"):
+            row.number("state")
+        with self.assertRaisesRegex(ReportError, r"frames\.csv:3: there is no column 'lines'"):
+            row.number("lines")
 
 
 class Forms(TablesTest):

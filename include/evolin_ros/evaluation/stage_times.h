@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <string>
+
+#include "evolin_ros/base/stop_watch.h"
 
 namespace evolin {
 
@@ -39,15 +40,15 @@ struct StageTime {
   }
 };
 
-/// Measures from its construction; to be read on the same thread.
-class Stopwatch {
+/// Both clocks from its construction on; to be read on the same thread.
+class StageClock {
  public:
-  Stopwatch();
+  StageClock();
 
   StageTime elapsed() const;
 
  private:
-  std::chrono::steady_clock::time_point wall_;
+  StopWatch wall_;
   double processor_;
 };
 
@@ -73,14 +74,14 @@ class StageTimes {
   class Timer {
    public:
     Timer(StageTimes* times, Stage stage) : times_(times), stage_(stage) {}
-    ~Timer() { times_->add(stage_, stopwatch_.elapsed()); }
+    ~Timer() { times_->add(stage_, clock_.elapsed()); }
     Timer(const Timer&) = delete;
     Timer& operator=(const Timer&) = delete;
 
    private:
     StageTimes* times_;
     Stage stage_;
-    Stopwatch stopwatch_;
+    StageClock clock_;
   };
 
   std::array<StageTime, static_cast<std::size_t>(Stage::kCount)> times_;

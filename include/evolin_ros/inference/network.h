@@ -41,8 +41,9 @@ class Network {
  public:
   /// Loads the file, compares its inputs and outputs with the interface and runs it once on zeros,
   /// which also warms it up. Throws UnavailableError where OpenCV lacks the DNN module, the backend
-  /// or the target; Error, naming the file, both sides of what differs and where to get the right
-  /// one, for a file that is missing, damaged, not verified or of another network.
+  /// or the target, or the file is not there, saying how to get it; ConfigError for an empty model;
+  /// Error, naming the file, both sides of what differs and where to get the right one, for a file
+  /// that is damaged, not verified or of another network.
   Network(NetworkInterface interface, const NetworkOptions& options);
   ~Network();
   Network(Network&&) noexcept;
@@ -52,8 +53,6 @@ class Network {
 
   /// The input as the file has it, with a batch of one where that is open.
   const std::vector<int>& inputShape() const { return input_shape_; }
-
-  const std::string& file() const { return file_; }
 
   /// Runs on one float tensor of the input's shape. The answers, in the interface's order, are the
   /// network's own memory until the next call. Throws Error when OpenCV does.

@@ -22,7 +22,6 @@ struct OnnxFile {
   std::vector<std::uint8_t> bytes;  ///< the whole file
   std::vector<TensorInfo> inputs;   ///< without the weights that old files list among them
   std::vector<TensorInfo> outputs;
-  std::size_t nodes = 0;
   std::string digest;           ///< SHA-256 of the whole file
   std::string graph_digest;     ///< SHA-256 of its graph
   std::string recorded_digest;  ///< what the metadata property `evolin.graph_sha256` says, or ""
