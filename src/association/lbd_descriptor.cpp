@@ -125,35 +125,35 @@ bool isInside(const LbdSupport& support, int width, int height) {
   return true;
 }
 
-// Means and standard deviations of the weighted rows in each band and its neighbours.
+// Means and standard deviations of the weighted rows in each band and its neighbours. Band by band:
+// GCC 10 leaves rows out of the sums where a row is spread over its bands instead.
 void bandStatistics(const LbdRowSums& sums, const Weights& weights, float* descriptor) {
-  std::array<std::array<float, kSums>, kBands> total{};
-  std::array<std::array<float, kSums>, kBands> squares{};
+  std::array<std::array<float, kSums>, kRows> values;
   for (int h = 0; h < kRows; ++h) {
-    const int band = h / kBandRows;
-    const int row = h % kBandRows;
-    std::array<float, kSums> value;
     for (int s = 0; s < kSums; ++s) {
-      value[s] = weights.global[h] * sums.values[s][h];
-    }
-    // A band beyond the support does not exist.
-    for (int b = std::max(band - 1, 0); b <= std::min(band + 1, kBands - 1); ++b) {
-      const float local = weights.local[row + kBandRows * (1 - (b - band))];
-      for (int s = 0; s < kSums; ++s) {
-        const float weighted = local * value[s];
-        total[b][s] += weighted;
-        squares[b][s] += weighted * weighted;
-      }
+      values[h][s] = weights.global[h] * sums.values[s][h];
     }
   }
   for (int b = 0; b < kBands; ++b) {
-    const int rows = (b == 0 || b == kBands - 1) ? 2 * kBandRows : 3 * kBandRows;
-    const float inverse = 1.0F / static_cast<float>(rows);
+    const int first = (b - 1) * kBandRows;
+    // A band beyond the support does not exist.
+    const int begin = std::max(first, 0);
+    const int end = std::min((b + 2) * kBandRows, kRows);
+    std::array<float, kSums> total{};
+    std::array<float, kSums> squares{};
+    for (int h = begin; h < end; ++h) {
+      for (int s = 0; s < kSums; ++s) {
+        const float weighted = weights.local[h - first] * values[h][s];
+        total[s] += weighted;
+        squares[s] += weighted * weighted;
+      }
+    }
+    const float inverse = 1.0F / static_cast<float>(end - begin);
     float* const out = descriptor + b * 2 * kSums;
     for (int s = 0; s < kSums; ++s) {
-      const float mean = total[b][s] * inverse;
+      const float mean = total[s] * inverse;
       out[s] = mean;
-      out[kSums + s] = std::sqrt(std::max(0.0F, squares[b][s] * inverse - mean * mean));
+      out[kSums + s] = std::sqrt(std::max(0.0F, squares[s] * inverse - mean * mean));
     }
   }
 }

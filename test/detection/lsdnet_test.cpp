@@ -45,7 +45,7 @@ class LsdNetTest : public ::testing::Test {
                 0.01 * static_cast<double>(golden_lines));
   }
 
-  test::Model model_ = test::sharedModel("lsdnet.onnx");
+  test::Model model_ = test::lsdNetModel();
 };
 
 TEST_F(LsdNetTest, EqualsTheGoldenLinesWithMendedAxes) { expectGolden("lsdnet_axisfix", "{}"); }

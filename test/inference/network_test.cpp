@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "evolin_ros/inference/model_catalogue.h"
 #include "evolin_ros/inference/model_files.h"
 #include "test/inference/onnx_bytes.h"
@@ -25,7 +27,7 @@ class NetworkTest : public ::testing::Test {
     }
   }
 
-  static NetworkInterface absolute() {
+  static NetworkInterface relu() {
     NetworkInterface interface;
     interface.owner = "detector test";
     interface.input = {"image", {1, 3, -1, -1}};
@@ -44,7 +46,7 @@ class NetworkTest : public ::testing::Test {
 };
 
 TEST_F(NetworkTest, Runs) {
-  Network network(absolute(), optionsFor(onnx::model(onnx::absoluteGraph(4))));
+  Network network(relu(), optionsFor(onnx::model(onnx::reluGraph(4))));
   ASSERT_EQ(network.inputShape(), (std::vector<int>{1, 3, 4, 4}));
   cv::Mat input(4, network.inputShape().data(), CV_32F);
   for (std::size_t i = 0; i < input.total(); ++i) {
@@ -53,7 +55,7 @@ TEST_F(NetworkTest, Runs) {
   const std::vector<cv::Mat>& answers = network.run(input);
   ASSERT_EQ(answers.size(), 1U);
   for (std::size_t i = 0; i < input.total(); ++i) {
-    EXPECT_EQ(answers[0].ptr<float>()[i], std::abs(static_cast<float>(i) - 20));
+    EXPECT_EQ(answers[0].ptr<float>()[i], std::max(0.0F, static_cast<float>(i) - 20));
   }
   EXPECT_GT(network.lastMilliseconds(), 0);
   test::expectError([&] { network.run(cv::Mat(4, 4, CV_32F)); },
@@ -61,36 +63,36 @@ TEST_F(NetworkTest, Runs) {
 }
 
 TEST_F(NetworkTest, NamesBothSidesOfWhatDiffers) {
-  NetworkInterface other = absolute();
+  NetworkInterface other = relu();
   other.outputs[0].name = "heatmap";
-  const NetworkOptions options = optionsFor(onnx::model(onnx::absoluteGraph(4)));
+  const NetworkOptions options = optionsFor(onnx::model(onnx::reluGraph(4)));
   test::expectError([&] { Network(other, options); },
                     {"detector test", "network.onnx", "another network", "'maps' [1, 3, 4, 4]",
                      "'heatmap' [1, 3, ?, ?]", "Ask its author."});
-  other = absolute();
+  other = relu();
   other.input.shape[1] = 1;
   test::expectError([&] { Network(other, options); }, {"'image' [1, 1, ?, ?]"});
 }
 
 // The file promises another shape than it gives.
 TEST_F(NetworkTest, ComparesWhatComesOutToo) {
-  const std::string graph = onnx::bytes(1, onnx::node("Abs", {"image"}, "maps")) +
+  const std::string graph = onnx::bytes(1, onnx::node("Relu", {"image"}, "maps")) +
                             onnx::bytes(11, onnx::value("image", {1, 3, 4, 4})) +
                             onnx::bytes(12, onnx::value("maps", {1, 3, -1, -1}));
-  NetworkInterface wrong = absolute();
+  NetworkInterface wrong = relu();
   wrong.outputs[0].shape = {1, 3, 9, 9};
   test::expectError([&] { Network(wrong, optionsFor(onnx::model(graph))); },
                     {"gives 'maps' [1, 3, 4, 4]; expected 'maps' [1, 3, 9, 9]"});
 }
 
 TEST_F(NetworkTest, VerifiesUnlessToldNotTo) {
-  NetworkOptions options = optionsFor(onnx::model(onnx::absoluteGraph(4), false));
-  test::expectError([&] { Network(absolute(), options); },
+  NetworkOptions options = optionsFor(onnx::model(onnx::reluGraph(4), false));
+  test::expectError([&] { Network(relu(), options); },
                     {"SHA-256", "not that of a published file", "verify: false"});
   options.verify = false;
-  EXPECT_NO_THROW(Network(absolute(), options));
+  EXPECT_NO_THROW(Network(relu(), options));
   options.verify = true;
-  NetworkInterface knowing = absolute();
+  NetworkInterface knowing = relu();
   knowing.digests = {readOnnxFile(options.model).digest};
   EXPECT_NO_THROW(Network(knowing, options));
 }
@@ -100,34 +102,34 @@ TEST_F(NetworkTest, AFileThatIsNotThereIsUnavailableAndSaysHowToGetIt) {
   options.model = "no_such.onnx";
   const Variable home("ROS_HOME", folder_.path().string());
   test::expectError<UnavailableError>(
-      [&] { Network(absolute(), options); },
+      [&] { Network(relu(), options); },
       {"detector test", "'model'", "'no_such.onnx'", folder_.path().string(), "Ask its author."});
   options.model = "";
-  test::expectError<ConfigError>([&] { Network(absolute(), options); }, {"'model'", "empty"});
+  test::expectError<ConfigError>([&] { Network(relu(), options); }, {"'model'", "empty"});
 }
 
 TEST_F(NetworkTest, AnOperationThatOpenCvLacksIsAnError) {
   const std::string graph = onnx::bytes(1, onnx::node("NoSuchOperation", {"image"}, "maps")) +
                             onnx::bytes(11, onnx::value("image", {1, 3, 4, 4})) +
                             onnx::bytes(12, onnx::value("maps", {1, 3, 4, 4}));
-  test::expectError([&] { Network(absolute(), optionsFor(onnx::model(graph))); },
+  test::expectError([&] { Network(relu(), optionsFor(onnx::model(graph))); },
                     {"network.onnx", "OpenCV"});
 }
 
 TEST_F(NetworkTest, AWrongBackendOrTargetNamesThoseThatAreThere) {
-  NetworkOptions options = optionsFor(onnx::model(onnx::absoluteGraph(4)));
+  NetworkOptions options = optionsFor(onnx::model(onnx::reluGraph(4)));
   options.target = "myriad";
-  test::expectError<UnavailableError>([&] { Network(absolute(), options); },
+  test::expectError<UnavailableError>([&] { Network(relu(), options); },
                                       {"'opencv' on 'myriad'", "opencv on cpu"});
 }
 
 TEST_F(NetworkTest, DamagedFilesAreErrorsAndNeverCrash) {
-  const std::string whole = onnx::model(onnx::absoluteGraph(8));
+  const std::string whole = onnx::model(onnx::reluGraph(8));
   test::Fuzzer fuzzer(8);
   test::FuzzCounts counts;
   for (int round = 0; round < 1500; ++round) {
     const std::string damaged = fuzzer.damaged(whole);
-    test::countAnswer([&] { Network(absolute(), optionsFor(damaged)); }, damaged, &counts);
+    test::countAnswer([&] { Network(relu(), optionsFor(damaged)); }, damaged, &counts);
   }
   EXPECT_GT(counts.errors, 500U);
 }
@@ -160,10 +162,10 @@ TEST(ModelCatalogue, TheShippedOneIsReadAndKnowsTheStateOfFiles) {
     EXPECT_EQ(statusOf(entry).state, ModelState::kAbsent) << entry.name;
     folder.write(entry.file, "text");
     EXPECT_EQ(statusOf(entry).state, ModelState::kDamaged) << entry.name;
-    folder.write(entry.file, onnx::model(onnx::absoluteGraph(4), false));
+    folder.write(entry.file, onnx::model(onnx::reluGraph(4), false));
     EXPECT_EQ(statusOf(entry).state,
               entry.sha256.empty() ? ModelState::kUnknown : ModelState::kWrongSum);
-    folder.write(entry.file, onnx::model(onnx::absoluteGraph(4)));
+    folder.write(entry.file, onnx::model(onnx::reluGraph(4)));
     EXPECT_EQ(statusOf(entry).state,
               entry.sha256.empty() ? ModelState::kPresent : ModelState::kWrongSum);
   }

@@ -67,9 +67,9 @@ inline std::string model(const std::string& graph, bool record = true) {
   return number(1, 4) + bytes(7, graph) + bytes(8, number(2, 9)) + (record ? property : "");
 }
 
-/// output = |input| of [1, 3, size, size].
-inline std::string absoluteGraph(int size) {
-  return bytes(1, node("Abs", {"image"}, "maps")) + bytes(2, "test") +
+/// output = max(0, input) of [1, 3, size, size].
+inline std::string reluGraph(int size) {
+  return bytes(1, node("Relu", {"image"}, "maps")) + bytes(2, "test") +
          bytes(11, value("image", {1, 3, size, size})) +
          bytes(12, value("maps", {1, 3, size, size}));
 }

@@ -33,13 +33,13 @@ class OnnxFileTest : public ::testing::Test {
 };
 
 TEST_F(OnnxFileTest, TellsInputsOutputsAndSums) {
-  const OnnxFile file = read(onnx::model(onnx::absoluteGraph(32)));
+  const OnnxFile file = read(onnx::model(onnx::reluGraph(32)));
   ASSERT_EQ(file.inputs.size(), 1U);
   EXPECT_EQ(toText(file.inputs[0]), "'image' [1, 3, 32, 32]");
   ASSERT_EQ(file.outputs.size(), 1U);
   EXPECT_EQ(file.outputs[0].name, "maps");
   EXPECT_TRUE(file.isAsRecorded());
-  EXPECT_FALSE(read(onnx::model(onnx::absoluteGraph(32), false)).isAsRecorded());
+  EXPECT_FALSE(read(onnx::model(onnx::reluGraph(32), false)).isAsRecorded());
 }
 
 TEST_F(OnnxFileTest, OpenSidesAndWeightsAmongTheInputs) {
@@ -60,17 +60,17 @@ TEST_F(OnnxFileTest, RefusesWhatDoesNotHangTogether) {
   expectRefused("no network at all", "no whole ONNX file");
   expectRefused(onnx::number(1, 4), "no graph");
   expectRefused(onnx::model(input + output), "nothing makes the output 'maps'");
-  expectRefused(onnx::model(onnx::bytes(1, onnx::node("Abs", {"other"}, "maps")) + input + output),
+  expectRefused(onnx::model(onnx::bytes(1, onnx::node("Relu", {"other"}, "maps")) + input + output),
                 "'other', which nothing before it makes");
   expectRefused(onnx::model(onnx::bytes(1, onnx::node("", {"image"}, "maps")) + input + output),
                 "without a type");
-  expectRefused(onnx::model(onnx::bytes(1, onnx::node("Abs", {"image"}, "maps")) +
+  expectRefused(onnx::model(onnx::bytes(1, onnx::node("Relu", {"image"}, "maps")) +
                             onnx::bytes(5, onnx::weight("w", {3}, {1, 2})) + input + output),
                 "'w' has 8 bytes instead of 12");
-  expectRefused(onnx::model(onnx::bytes(1, onnx::node("Abs", {"image"}, "maps")) +
+  expectRefused(onnx::model(onnx::bytes(1, onnx::node("Relu", {"image"}, "maps")) +
                             onnx::bytes(5, onnx::number(1, 1ULL << 40U)) + input + output),
                 "too large to be true");
-  expectRefused(onnx::model(onnx::absoluteGraph(8)) + onnx::bytes(7, onnx::absoluteGraph(8)),
+  expectRefused(onnx::model(onnx::reluGraph(8)) + onnx::bytes(7, onnx::reluGraph(8)),
                 "more than one graph");
 }
 
@@ -81,7 +81,7 @@ TEST_F(OnnxFileTest, RefusesFoldersAndMissingFiles) {
 }
 
 TEST_F(OnnxFileTest, EveryShorterFileIsRefusedOrLacksItsSum) {
-  const std::string whole = onnx::model(onnx::absoluteGraph(32));
+  const std::string whole = onnx::model(onnx::reluGraph(32));
   for (std::size_t size = 0; size < whole.size(); ++size) {
     try {
       EXPECT_FALSE(read(whole.substr(0, size)).isAsRecorded()) << size;
@@ -92,7 +92,7 @@ TEST_F(OnnxFileTest, EveryShorterFileIsRefusedOrLacksItsSum) {
 }
 
 TEST_F(OnnxFileTest, DamageIsAnErrorOrShowsInTheSums) {
-  const std::string whole = onnx::model(onnx::absoluteGraph(32));
+  const std::string whole = onnx::model(onnx::reluGraph(32));
   const OnnxFile sound = read(whole);
   test::Fuzzer fuzzer(20261123);
   test::FuzzCounts counts;

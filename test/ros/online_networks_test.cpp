@@ -63,7 +63,7 @@ TEST_F(OnlineNetworks, MlsdSendsThePluginsLines) {
 }
 
 TEST_F(OnlineNetworks, LsdNetSendsThePluginsLines) {
-  const Model model = sharedModel("lsdnet.onnx");
+  const Model model = lsdNetModel();
   EVOLIN_REQUIRE_MODEL(model);
   expectLinesOfThePlugin("lsdnet", model);
 }

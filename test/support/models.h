@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <opencv2/core/version.hpp>
 #include <string>
 
 #include "test/support/shared_data.h"
@@ -29,6 +30,14 @@ inline Model sharedModel(const std::string& name) {
     return {{}, file.string() + " is absent"};
   }
   return {file, ""};
+}
+
+/// LSDNet's file, where OpenCV reads it: 4.5.1 does not ("Inconsistent shape for ConcatLayer").
+inline Model lsdNetModel() {
+  if (CV_VERSION_MAJOR * 100 + CV_VERSION_MINOR < 406) {
+    return {{}, "OpenCV " CV_VERSION " does not read lsdnet.onnx, 4.6 does"};
+  }
+  return sharedModel("lsdnet.onnx");
 }
 
 /// M-LSD's `name` ("mlsd_tiny_512.onnx"), converted from `checkpoint` of the shared models/ by
