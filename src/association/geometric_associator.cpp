@@ -37,14 +37,15 @@ cv::Point2d translationBetween(const Frame& first, const Frame& second) {
   cv::Mat small_a;
   cv::Mat small_b;
   const cv::Size half((a.cols + 1) / 2, (a.rows + 1) / 2);
+  if (half.width < 2 || half.height < 2) {
+    return {};  // OpenCV's phase correlation fails on a single row or column
+  }
   cv::resize(a, small_a, half, 0, 0, cv::INTER_AREA);
   cv::resize(b, small_b, half, 0, 0, cv::INTER_AREA);
   small_a.convertTo(small_a, CV_32F);
   small_b.convertTo(small_b, CV_32F);
   cv::Mat window;
-  if (half.width > 1 && half.height > 1) {
-    cv::createHanningWindow(window, half, CV_32F);
-  }
+  cv::createHanningWindow(window, half, CV_32F);
   double response = 0;
   const cv::Point2d shift = cv::phaseCorrelate(small_a, small_b, window, &response);
   // Images without texture correlate with nothing.
