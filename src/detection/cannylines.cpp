@@ -42,6 +42,7 @@ void CannyLines::configure(const YAML::Node& parameters) {
   reader.read("meaningful_gradient", &read.meaningful_gradient, 1.0, 2040.0);
   reader.read("fit_error", &read.fit_error, 0.01, 10.0);
   reader.read("validate", &read.validate);
+  reader.read("compatible", &read.compatible);
   readSelection(&reader, &read.selection);
   reader.finish();
   engine_ = std::make_unique<Engine>(read);

@@ -63,12 +63,16 @@ bool EdgeFinder::chooseThresholds(double* low, double* high) {
   return true;
 }
 
-/// The direction of the edge in sixteenths of a turn.
+/// The direction of the edge in sixteenths of a turn. Edges along rows, columns and diagonals lie
+/// between two; which they belong to hangs on the last bit, and so the precision is the published
+/// one: single for the angle and the sixteenth, double for what comes between.
 std::uint8_t EdgeFinder::sector(EdgePixel p) const {
+  constexpr auto kSixteenth = static_cast<float>(kHalfTurn / 8);
   const std::int16_t* derivatives = maps_.derivatives.data() + 2 * maps_.at(p.x, p.y);
-  const double angle =
-      std::atan2(static_cast<double>(derivatives[0]), static_cast<double>(-derivatives[1]));
-  const int sector = static_cast<int>((angle + kHalfTurn) / (kHalfTurn / 8));
+  const float angle =
+      std::atan2(static_cast<float>(derivatives[0]), static_cast<float>(-derivatives[1]));
+  const int sector =
+      static_cast<int>((static_cast<double>(angle) + kHalfTurn) / static_cast<double>(kSixteenth));
   return static_cast<std::uint8_t>(sector % kSectors);
 }
 

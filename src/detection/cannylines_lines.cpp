@@ -1,4 +1,4 @@
-// Splitting, fitting, extending and merging, validation.
+// Splitting, extending and merging, validation.
 #include "cannylines_lines.h"
 
 #include <algorithm>
@@ -15,39 +15,6 @@ constexpr double kGapShare = 0.25;     // gaps to edge pixels that end an extens
 constexpr int kMostGaps = 2;           // until both are counted anew
 constexpr int kMergeDistance = 4;      // pixels between ends
 constexpr double kWorstPixel = 3;      // of fit_error, in a merged line
-
-/// Least squares along u, each pixel with its weight.
-template <typename Weight>
-LineEquation fit(const std::vector<EdgePixel>& pixels, bool steep, Weight weight) {
-  LineEquation line;
-  line.steep = steep;
-  const EdgePixel origin = pixels.front();
-  double n = 0;
-  double su = 0;
-  double sv = 0;
-  double suu = 0;
-  double suv = 0;
-  for (const EdgePixel& p : pixels) {
-    const double w = weight(p);
-    const double u = line.u(p) - line.u(origin);
-    const double v = line.v(p) - line.v(origin);
-    n += w;
-    su += w * u;
-    sv += w * v;
-    suu += w * u * u;
-    suv += w * u * v;
-  }
-  const double spread = n * suu - su * su;
-  if (spread > 0) {
-    line.k = (n * suv - su * sv) / spread;
-  }
-  line.b = (sv - line.k * su) / n + line.v(origin) - line.k * line.u(origin);
-  return line;
-}
-
-LineEquation fit(const std::vector<EdgePixel>& pixels, bool steep) {
-  return fit(pixels, steep, [](EdgePixel) { return 1.0; });
-}
 
 bool isSteep(EdgePixel a, EdgePixel b) { return std::abs(a.y - b.y) >= std::abs(a.x - b.x); }
 
@@ -151,7 +118,7 @@ void LineFinder::addLine(const EdgePixel* pixels, std::size_t size) {
   Line& line = lines_[count_];
   line.merged = false;
   line.pixels.assign(pixels, pixels + size);
-  line.equation = fit(line.pixels, isSteep(pixels[0], pixels[size - 1]));
+  line.equation = fitter_.fit(line.pixels, isSteep(pixels[0], pixels[size - 1]));
   // Both ends begin with the second pixel that is near the line.
   const auto secondNear = [&](auto first, auto last) {
     int near = 0;
@@ -189,8 +156,7 @@ void LineFinder::grow(std::size_t index) {
   Line& line = lines_[index];
   std::reverse(line.pixels.begin(), line.pixels.end());
   extend(index);
-  line.equation = fit(line.pixels, line.equation.steep,
-                      [this](EdgePixel p) { return static_cast<double>(edges_->strength(p)); });
+  line.equation = fitter_.fitByStrength(line.pixels, line.equation.steep, *edges_);
   placeEnds(&line);
 }
 
@@ -226,8 +192,11 @@ void LineFinder::extend(std::size_t index) {
     const int step =
         line.equation.u(line.pixels.back()) > line.equation.u(line.pixels.front()) ? 1 : -1;
     u += step;
-    const int v = static_cast<int>(std::floor(line.equation.at(u) + 0.5));
     const int end = steep ? height_ : width_;
+    const int beside = (steep ? width_ : height_) + 1;
+    // Single precision may lead far away; beyond the border all places are alike.
+    const int v =
+        static_cast<int>(std::clamp<double>(std::floor(line.equation.at(u) + 0.5), -2, beside));
     if (u < 0 || u >= end) {
       break;
     }
@@ -269,7 +238,7 @@ void LineFinder::extend(std::size_t index) {
       growth.gaps = growth.edges = 0;
     }
     if (line.pixels.size() - growth.fitted >= meaningful_length_) {
-      line.equation = fit(line.pixels, isSteep(line.pixels.front(), line.pixels.back()));
+      line.equation = fitter_.fit(line.pixels, isSteep(line.pixels.front(), line.pixels.back()));
       growth.fitted = line.pixels.size();
       u = line.equation.u(line.pixels.back());
     }
@@ -301,7 +270,7 @@ bool LineFinder::tryToMerge(std::size_t index, std::size_t other) {
   } else {
     joined_.insert(joined_.end(), next.pixels.begin(), next.pixels.end());
   }
-  const LineEquation fitted = fit(joined_, isSteep(joined_.front(), joined_.back()));
+  const LineEquation fitted = fitter_.fit(joined_, isSteep(joined_.front(), joined_.back()));
   double squares = 0;
   double worst = 0;
   for (const EdgePixel& p : joined_) {

@@ -5,21 +5,10 @@
 #include <vector>
 
 #include "cannylines_edges.h"
+#include "cannylines_fit.h"
 #include "evolin_ros/geometry/line_segment.h"
 
 namespace evolin::cannylines {
-
-/// v = b + k u, where u is x and v is y, or the other way round when `steep`.
-struct LineEquation {
-  double k = 0;
-  double b = 0;
-  bool steep = false;
-
-  int u(EdgePixel p) const { return steep ? p.y : p.x; }
-  int v(EdgePixel p) const { return steep ? p.x : p.y; }
-  double at(double u) const { return b + k * u; }
-  double offset(EdgePixel p) const { return v(p) - at(u(p)); }
-};
 
 struct Line {
   std::vector<EdgePixel> pixels;  // from one end to the other
@@ -31,7 +20,8 @@ struct Line {
 /// Finds the lines among the chains of one image after the other, in buffers that it keeps.
 class LineFinder {
  public:
-  explicit LineFinder(const CannyLinesParameters& parameters) : parameters_(parameters) {}
+  explicit LineFinder(const CannyLinesParameters& parameters)
+      : parameters_(parameters), fitter_(parameters.compatible) {}
 
   /// `edges` must outlive the call only. The result is valid until the next one.
   const LineSegments& find(const EdgeFinder& edges);
@@ -61,6 +51,7 @@ class LineFinder {
   std::int32_t labelAt(int x, int y) const;
 
   CannyLinesParameters parameters_;
+  LineFitter fitter_;
   const EdgeFinder* edges_ = nullptr;
   std::size_t meaningful_length_ = 0;
   double most_turn_ = 0;  // radians between lines that merge

@@ -8,6 +8,7 @@
 #include "evolin_ros/base/availability.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/dataset/frame.h"
+#include "evolin_ros/detection/detector_selection.h"
 #include "evolin_ros/geometry/line_segment.h"
 
 namespace evolin {
@@ -19,8 +20,9 @@ void requireOddAperture(const std::string& owner, int canny_aperture);
 LineSegments toLineSegments(const std::vector<cv::Vec4f>& rows);
 LineSegments toLineSegments(const std::vector<cv::Vec4i>& rows);
 
-/// Converts the image to grey and calls `detect` on it. Throws Error when the plug-in is not
-/// configured, the image is not 8-bit grey or BGR, or OpenCV itself throws.
+/// Converts the image to grey, calls `detect` on it and cuts the lines to the image: OpenCV's LSD
+/// gives some that end pixels beyond, its Hough transform some of no length. Throws Error when the
+/// plug-in is not configured, the image is not 8-bit grey or BGR, or OpenCV itself throws.
 template <typename Detect>
 LineSegments detectOnGray(const std::string& owner, bool configured, const Frame& frame,
                           Detect detect) {
@@ -33,7 +35,7 @@ LineSegments detectOnGray(const std::string& owner, bool configured, const Frame
     gray = gray.clone();
   }
   try {
-    return detect(gray);
+    return LineFilter().apply(detect(gray), gray.size(), owner);
   } catch (const cv::Exception& error) {
     throw Error(owner + ": OpenCV failed on the image of " + std::to_string(gray.cols) + "x" +
                 std::to_string(gray.rows) + " pixels of frame '" + frame.name +

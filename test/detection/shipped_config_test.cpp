@@ -54,8 +54,9 @@ auto selectionValues(const DetectorSelection& s) {
 }
 
 auto values(const CannyLinesParameters& p) {
-  return std::tuple_cat(std::make_tuple(p.sigma, p.meaningful_gradient, p.fit_error, p.validate),
-                        selectionValues(p.selection));
+  return std::tuple_cat(
+      std::make_tuple(p.sigma, p.meaningful_gradient, p.fit_error, p.validate, p.compatible),
+      selectionValues(p.selection));
 }
 
 auto values(const KhtParameters& p) {
