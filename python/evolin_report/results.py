@@ -147,7 +147,7 @@ def input_name(report):
         if isinstance(candidate, list):
             candidate = candidate[0] if candidate else None
         if isinstance(candidate, dict):
-            candidate = candidate.get("path") or candidate.get("name")
+            candidate = candidate.get("bag") or candidate.get("path") or candidate.get("name")
         if isinstance(candidate, str) and candidate:
             name = os.path.basename(os.path.normpath(candidate))
             return name[:-4] if name.endswith(".bag") else name

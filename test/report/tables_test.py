@@ -108,6 +108,15 @@ class Content(TablesTest):
         self.assertEqual([row.keys[0] for row in self.table(made, "detection").rows],
                          ["lsd + first", "lsd + second"])
 
+    def test_runs_over_one_bag_stand_in_one_table_under_its_name(self):
+        provenance = dict(report()["provenance"],
+                          input={"bags": [{"bag": "/data/cabinet.bag", "bytes": 3}]})
+        made = self.make(self.run_directory("a", report("lsd", provenance=provenance)),
+                         self.run_directory("b", report("elsed", provenance=provenance)))
+        table = self.table(made, "detection_scored")
+        self.assertEqual(table.sequence, "cabinet")
+        self.assertEqual(len(table.rows), 2)
+
     def test_coverage_leaves_out_what_never_happened(self):
         made = self.make(self.run_directory("a", report(
             coverage={"input_images": None, "seen": 5, "evaluated": 4, "dropped": 1, "skipped": 0})))
