@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
 
 namespace evolin {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "marked_pixels.h"
 #include "smoothed_gradient.h"
 
 namespace evolin {
@@ -59,20 +59,7 @@ class CannyEdges {
 /// Calls `visit(x)` for each x in [first, last) where row[x] is not 0 when its turn comes.
 template <typename Visit>
 void visitEdges(const std::uint8_t* row, int first, int last, Visit visit) {
-  constexpr int kAtOnce = 8;
-  for (int x = first; x < last; ++x) {
-    if (x + kAtOnce <= last) {
-      std::uint64_t block = 0;
-      std::memcpy(&block, row + x, kAtOnce);
-      if (block == 0) {
-        x += kAtOnce - 1;
-        continue;
-      }
-    }
-    if (row[x] != 0) {
-      visit(x);
-    }
-  }
+  visitMarked(row, first, last, 1, visit);
 }
 
 }  // namespace evolin

@@ -2,12 +2,16 @@
 #include "edge_drawing.h"
 
 #include <algorithm>
-#include <cstring>
+
+#include "marked_pixels.h"
+#include "ridge_anchors.h"
 
 namespace evolin::edlines {
 namespace {
 
 constexpr int kMargin = 2;  // pixels at the border without anchors
+// Values that |dx| + |dy| of 3x3 Prewitt derivatives may have.
+constexpr std::size_t kStrengths = 2 * 3 * 255 + 1;
 
 }  // namespace
 
@@ -46,44 +50,21 @@ void EdgeDrawing::findAnchors() {
     const std::uint16_t* above = here - width;
     const std::uint16_t* below = here + width;
     auto* marks = reinterpret_cast<std::uint8_t*>(marks_.data() + maps_->at(0, y));
-    for (int x = kMargin; x < width - kMargin; ++x) {
-      // Both pairs of neighbours, then a choice: so the loop has no branch and vectorises.
-      const auto beside = static_cast<std::int16_t>(std::max(here[x - 1], here[x + 1]) >> 1U);
-      const auto across = static_cast<std::int16_t>(std::max(above[x], below[x]) >> 1U);
-      const auto value = static_cast<std::int16_t>(here[x] >> 1U);
-      const std::int16_t other = (here[x] & 1U) != 0 ? beside : across;
-      const auto above_other = static_cast<std::int16_t>(value - other);
-      marks[x] = static_cast<std::uint8_t>((value > 0) & (above_other >= rise));
-    }
-    const int first = y % interval == 0 ? kMargin : std::max(interval, kMargin);
-    const int step = y % interval == 0 ? 1 : interval;
-    constexpr int kAtOnce = 8;
-    int next = first;  // the next column in which there may be an anchor
-    for (int x = kMargin; x < width - kMargin; ++x) {
-      std::uint64_t block = 1;
-      if (x + kAtOnce <= width - kMargin) {
-        std::memcpy(&block, marks + x, kAtOnce);
-      }
-      if (block == 0) {
-        x += kAtOnce - 1;
-        continue;
-      }
-      if (marks[x] == 0) {
-        continue;
-      }
-      while (next < x) next += step;
-      if (next == x) {
+    flagRidge(above, here, below, kMargin, width - kMargin, rise, marks);
+    // Rows and columns at the interval; elsewhere no pixel is an anchor.
+    const bool whole_row = y % interval == 0;
+    visitMarked(marks, kMargin, width - kMargin, 1, [&](int x) {
+      if (whole_row || x % interval == 0) {
         unsorted_anchors_.push_back({x, y});
       } else {
         marks[x] = static_cast<std::uint8_t>(Mark::kFree);
       }
-    }
+    });
   }
 }
 
 void EdgeDrawing::sortAnchors() {
   // By falling strength; rows and columns rise among equals.
-  constexpr std::size_t kStrengths = 1 << 15;
   slots_.assign(kStrengths + 1, 0);
   const auto slot = [&](const EdgePixel& p) {
     return kStrengths - 1 - (maps_->strength[maps_->at(p.x, p.y)] >> 1U);

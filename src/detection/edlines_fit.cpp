@@ -15,56 +15,30 @@ constexpr std::size_t kFewestGoodPixels = 2;  // that make a line longer
 constexpr double kStraight = 1e-3;            // rise of a line without slope, pixels
 constexpr std::size_t kPixelGap = 5;          // between lines whose pixels are counted together
 
-/// Sums of coordinates; whole numbers, so that the order of pixels does not matter.
-class Sums {
- public:
-  void add(EdgePixel p) { count(p, 1); }
-  void remove(EdgePixel p) { count(p, -1); }
+bool isSteep(const PixelSums& s) { return s.n * s.xx - s.x * s.x < s.n * s.yy - s.y * s.y; }
 
-  bool isSteep() const { return n_ * xx_ - x_ * x_ < n_ * yy_ - y_ * y_; }
+LineEquation equation(const PixelSums& s, bool steep) {
+  const double u = steep ? s.y : s.x;
+  const double v = steep ? s.x : s.y;
+  const double uu = steep ? s.yy : s.xx;
+  const double spread = s.n * uu - u * u;
+  return {(uu * v - u * s.xy) / spread, (s.n * s.xy - u * v) / spread, steep};
+}
 
-  LineEquation equation(bool steep) const {
-    const double u = steep ? y_ : x_;
-    const double v = steep ? x_ : y_;
-    const double uu = steep ? yy_ : xx_;
-    const double spread = n_ * uu - u * u;
-    return {(uu * v - u * xy_) / spread, (n_ * xy_ - u * v) / spread, steep};
-  }
-
-  /// Mean squared distance of the pixels from their `line`, which is not level.
-  double squaredError(const LineEquation& line) const {
-    const double u = line.steep ? y_ : x_;
-    const double v = line.steep ? x_ : y_;
-    const double uv = n_ * xy_ - u * v;
-    const double vv = line.steep ? n_ * xx_ - x_ * x_ : n_ * yy_ - y_ * y_;
-    return (vv - line.b * uv) / (n_ * n_ * (1 + line.b * line.b));
-  }
-
- private:
-  void count(EdgePixel p, double sign) {
-    const double x = p.x;
-    const double y = p.y;
-    n_ += sign;
-    x_ += sign * x;
-    y_ += sign * y;
-    xx_ += sign * x * x;
-    yy_ += sign * y * y;
-    xy_ += sign * x * y;
-  }
-
-  double n_ = 0;
-  double x_ = 0;
-  double y_ = 0;
-  double xx_ = 0;
-  double yy_ = 0;
-  double xy_ = 0;
-};
+/// Mean squared distance of the pixels from their `line`, which is not level.
+double squaredError(const PixelSums& s, const LineEquation& line) {
+  const double u = line.steep ? s.y : s.x;
+  const double v = line.steep ? s.x : s.y;
+  const double uv = s.n * s.xy - u * v;
+  const double vv = line.steep ? s.n * s.xx - s.x * s.x : s.n * s.yy - s.y * s.y;
+  return (vv - line.b * uv) / (s.n * s.n * (1 + line.b * line.b));
+}
 
 /// The error of a first fit: root mean square, or the mean distance from a level line.
-double fitError(const Sums& sums, const LineEquation& line, const EdgePixel* pixels,
+double fitError(const PixelSums& sums, const LineEquation& line, const EdgePixel* pixels,
                 std::size_t size) {
   if (line.b != 0) {
-    return std::sqrt(std::max(0.0, sums.squaredError(line)));
+    return std::sqrt(std::max(0.0, squaredError(sums, line)));
   }
   double total = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -109,9 +83,9 @@ void LineFitter::fit(const EdgePixel* pixels, std::size_t size, std::size_t wind
   std::size_t begin = 0;
   while (size - begin >= window) {
     // The first window of pixels on a line.
-    Sums sums;
+    PixelSums sums;
     for (std::size_t k = 0; k < window; ++k) sums.add(pixels[begin + k]);
-    LineEquation line = sums.equation(sums.isSteep());
+    LineEquation line = equation(sums, isSteep(sums));
     while (fitError(sums, line, pixels + begin, window) > parameters_.first_fit_error) {
       if (begin + window == size) {
         return;
@@ -119,7 +93,7 @@ void LineFitter::fit(const EdgePixel* pixels, std::size_t size, std::size_t wind
       sums.remove(pixels[begin]);
       sums.add(pixels[begin + window]);
       ++begin;
-      line = sums.equation(sums.isSteep());
+      line = equation(sums, isSteep(sums));
     }
 
     std::size_t fitted = begin + window;  // behind the last pixel of the fit
@@ -140,7 +114,7 @@ void LineFitter::fit(const EdgePixel* pixels, std::size_t size, std::size_t wind
       }
       if (good >= kFewestGoodPixels) {
         for (; fitted <= last_good; ++fitted) sums.add(pixels[fitted]);
-        line = sums.equation(line.steep);
+        line = equation(sums, line.steep);
         next = last_good + 1;
         end = next;
       }

@@ -36,15 +36,6 @@ bool Validation::isMeaningful(const FittedLine& line) {
 }
 
 int Validation::leastAligned(int pixels) {
-  const auto log_factorial = [this](int n) {
-    while (static_cast<int>(log_factorials_.size()) <= n) {
-      log_factorials_.push_back(log_factorials_.empty()
-                                    ? 0
-                                    : log_factorials_.back() +
-                                          std::log(static_cast<double>(log_factorials_.size())));
-    }
-    return log_factorials_[static_cast<std::size_t>(n)];
-  };
   while (static_cast<int>(least_.size()) <= pixels) {
     // The least number does not fall as pixels are added; pixels + 1 says that there is none.
     const int n = static_cast<int>(least_.size());
@@ -52,8 +43,9 @@ int Validation::leastAligned(int pixels) {
     for (; k <= n; ++k) {
       double tail = 0;
       for (int i = n; i >= k; --i) {
-        tail += std::exp(log_tests_ + log_factorial(n) - log_factorial(i) - log_factorial(n - i) +
-                         i * std::log(kChance) + (n - i) * std::log(1 - kChance));
+        tail +=
+            std::exp(log_tests_ + log_factorial_(n) - log_factorial_(i) - log_factorial_(n - i) +
+                     i * std::log(kChance) + (n - i) * std::log(1 - kChance));
       }
       if (tail <= 1) {
         break;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "edlines_fit.h"
+#include "log_factorials.h"
 
 namespace evolin::edlines {
 
@@ -34,7 +35,7 @@ class Validation {
   int aligned_ = 0;
 
   std::vector<int> least_;  // by number of pixels
-  std::vector<double> log_factorials_;
+  LogFactorials log_factorial_;
 };
 
 }  // namespace evolin::edlines

@@ -2,7 +2,9 @@
 #include "elsed_drawing.h"
 
 #include <algorithm>
-#include <cstring>
+
+#include "marked_pixels.h"
+#include "ridge_anchors.h"
 
 namespace evolin::elsed {
 
@@ -12,7 +14,7 @@ void Drawing::draw(const GradientMaps& maps) {
   pixels_.clear();
   segments_.clear();
   findAnchors(maps);
-  for (const Pixel& anchor : anchors_) {
+  for (const EdgePixel& anchor : anchors_) {
     if (label(anchor) == Label::kFree) {
       drawFrom(anchor);
     }
@@ -21,45 +23,6 @@ void Drawing::draw(const GradientMaps& maps) {
 
 // ---- anchors
 
-namespace {
-
-/// Marks in `flags` the pixels of one row that rise above both neighbours across their edge.
-void flagAnchors(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
-                 int width, std::int16_t rise, std::uint8_t* flags) {
-  for (int x = 1; x < width - 1; ++x) {
-    // Both pairs of neighbours, then a choice: so the loop has no branch and vectorises.
-    const auto beside = static_cast<std::int16_t>(std::max(here[x - 1], here[x + 1]) >> 1U);
-    const auto across = static_cast<std::int16_t>(std::max(above[x], below[x]) >> 1U);
-    const auto value = static_cast<std::int16_t>(here[x] >> 1U);
-    const std::int16_t other = (here[x] & 1U) != 0 ? beside : across;
-    const auto above_other = static_cast<std::int16_t>(value - other);
-    flags[x] = static_cast<std::uint8_t>((value > 0) & (above_other >= rise));
-  }
-}
-
-/// Calls `visit` with the positions first, first + interval, ... that are marked.
-template <typename Visit>
-void visitMarked(const std::vector<std::uint8_t>& flags, int first, int interval, Visit visit) {
-  constexpr int kAtOnce = 8;
-  const int size = static_cast<int>(flags.size());
-  for (int x = first; x < size; x += interval) {
-    if (x + kAtOnce <= size) {
-      std::uint64_t block = 0;
-      std::memcpy(&block, flags.data() + x, kAtOnce);
-      if (block == 0) {
-        // To the last position of the block that would be looked at.
-        x += (kAtOnce - 1) / interval * interval;
-        continue;
-      }
-    }
-    if (flags[static_cast<std::size_t>(x)] != 0) {
-      visit(x);
-    }
-  }
-}
-
-}  // namespace
-
 void Drawing::findAnchors(const GradientMaps& maps) {
   unsorted_anchors_.clear();
   anchor_flags_.assign(static_cast<std::size_t>(maps.width), 0);
@@ -67,9 +30,9 @@ void Drawing::findAnchors(const GradientMaps& maps) {
   while (true) {
     for (int y = 1; y < maps.height - 1; y += parameters_.scan_interval) {
       const std::uint16_t* here = maps.strength.data() + maps.at(0, y);
-      flagAnchors(here - maps.width, here, here + maps.width, maps.width,
-                  static_cast<std::int16_t>(rise), anchor_flags_.data());
-      visitMarked(anchor_flags_, 1, parameters_.scan_interval, [&](int x) {
+      flagRidge(here - maps.width, here, here + maps.width, 1, maps.width - 1,
+                static_cast<std::int16_t>(rise), anchor_flags_.data());
+      visitMarked(anchor_flags_.data(), 1, maps.width - 1, parameters_.scan_interval, [&](int x) {
         unsorted_anchors_.push_back({x, y});
       });
     }
@@ -83,21 +46,21 @@ void Drawing::findAnchors(const GradientMaps& maps) {
 
 void Drawing::sortAnchorsByColumn(int width) {
   column_ends_.assign(static_cast<std::size_t>(width) + 1, 0);
-  for (const Pixel& anchor : unsorted_anchors_) {
+  for (const EdgePixel& anchor : unsorted_anchors_) {
     ++column_ends_[static_cast<std::size_t>(anchor.x) + 1];
   }
   for (std::size_t x = 1; x < column_ends_.size(); ++x) {
     column_ends_[x] += column_ends_[x - 1];
   }
   anchors_.resize(unsorted_anchors_.size());
-  for (const Pixel& anchor : unsorted_anchors_) {
+  for (const EdgePixel& anchor : unsorted_anchors_) {
     anchors_[column_ends_[static_cast<std::size_t>(anchor.x)]++] = anchor;
   }
 }
 
 // ---- the walk
 
-Drawing::Walker Drawing::walkerAt(Pixel start, Direction direction) {
+Drawing::Walker Drawing::walkerAt(EdgePixel start, Direction direction) {
   Walker walker;
   walker.at = walker.before = start;
   walker.vertical = direction == Direction::kUp || direction == Direction::kDown;
@@ -107,8 +70,8 @@ Drawing::Walker Drawing::walkerAt(Pixel start, Direction direction) {
 }
 
 bool Drawing::step(Walker* walker) const {
-  const Pixel p = walker->at;
-  const Pixel q = walker->before;
+  const EdgePixel p = walker->at;
+  const EdgePixel q = walker->before;
   // The walk never leaves the image, and what it compares lies within a pixel around it.
   const bool inside = p.x > 0 && p.y > 0 && p.x < maps_->width - 1 && p.y < maps_->height - 1;
   walker->before = p;
@@ -149,7 +112,7 @@ bool Drawing::walkBranch(Walker* walker, Side side, std::size_t* window) {
   const auto most = static_cast<std::size_t>(parameters_.max_outliers);
   outliers_.clear();
   while (outliers_.size() <= most && step(walker)) {
-    const Pixel p = walker->at;
+    const EdgePixel p = walker->at;
     const Label found = label(p);
     if (found == Label::kInlier || found == Label::kJunction || found == Label::kEdge) {
       return true;
@@ -172,7 +135,7 @@ bool Drawing::walkBranch(Walker* walker, Side side, std::size_t* window) {
 
 // ---- segments
 
-void Drawing::growWithoutSegment(Pixel p, std::size_t* window) {
+void Drawing::growWithoutSegment(EdgePixel p, std::size_t* window) {
   pixels_.push_back(p);
   setLabel(p, Label::kEdge);
   if (pixels_.size() - *window < static_cast<std::size_t>(parameters_.min_line_length)) {
@@ -186,7 +149,7 @@ void Drawing::growWithoutSegment(Pixel p, std::size_t* window) {
     fit_begin_ = fit_end_ = *window;
     fitting_ = true;
   }
-  const Pixel& first = pixels_[*window];
+  const EdgePixel& first = pixels_[*window];
   line_.pointTo(p.x - first.x, p.y - first.y);
   for (; fit_end_ < pixels_.size(); ++fit_end_) line_.add(pixels_[fit_end_]);
   if (!line_.fitsWithin(parameters_.line_fit_error)) {
@@ -201,7 +164,7 @@ void Drawing::growWithoutSegment(Pixel p, std::size_t* window) {
   end_ = {p, pixels_[pixels_.size() - 2], 0, false};
 }
 
-void Drawing::addToSegment(Pixel p, Side side) {
+void Drawing::addToSegment(EdgePixel p, Side side) {
   Tip& grown = tip(side);
   pixels_.push_back(p);
   line_.add(p);
@@ -211,7 +174,7 @@ void Drawing::addToSegment(Pixel p, Side side) {
   ++grown.added;
 }
 
-void Drawing::undoLastInlier(Side side, Pixel anchor) {
+void Drawing::undoLastInlier(Side side, EdgePixel anchor) {
   Tip& shortened = tip(side);
   line_.remove(shortened.pixel);
   line_.update();
@@ -233,7 +196,7 @@ void Drawing::finishSegment() {
   exists_ = fitting_ = false;
 }
 
-void Drawing::drawFrom(Pixel anchor) {
+void Drawing::drawFrom(EdgePixel anchor) {
   const bool vertical = (maps_->strength[maps_->at(anchor.x, anchor.y)] & 1U) != 0;
   const Direction direction = vertical ? Direction::kDown : Direction::kRight;
   setLabel(anchor, Label::kAnchor);
@@ -243,7 +206,7 @@ void Drawing::drawFrom(Pixel anchor) {
   drawOneWay(anchor, opposite(direction), false);
 }
 
-void Drawing::drawOneWay(Pixel anchor, Direction direction, bool first_way) {
+void Drawing::drawOneWay(EdgePixel anchor, Direction direction, bool first_way) {
   bool reused = false;
   depth_ = 0;
   schedule(&reused, direction, anchor, Side::kEnd);
@@ -284,7 +247,7 @@ void Drawing::rememberForTheOtherWay(std::size_t window) {
 
 // ---- what comes after a branch
 
-void Drawing::schedule(bool* reused, Direction direction, Pixel start, Side side) {
+void Drawing::schedule(bool* reused, Direction direction, EdgePixel start, Side side) {
   // The first successor takes the place of the branch that ended, further ones go on top.
   if (depth_ == 0 || *reused) {
     if (stack_.size() == depth_) {
@@ -300,7 +263,7 @@ void Drawing::schedule(bool* reused, Direction direction, Pixel start, Side side
   branch.preset.clear();
 }
 
-bool Drawing::scheduleSuccessors(const Walker& walker, Side side, Pixel anchor, bool hit) {
+bool Drawing::scheduleSuccessors(const Walker& walker, Side side, EdgePixel anchor, bool hit) {
   bool reused = false;
   if (!outliers_.empty() && (side == Side::kEnd || start_.added > 0)) {
     undoLastInlier(side, anchor);
@@ -308,21 +271,21 @@ bool Drawing::scheduleSuccessors(const Walker& walker, Side side, Pixel anchor, 
   const bool strayed = outliers_.size() > static_cast<std::size_t>(parameters_.max_outliers);
   if (strayed) {
     // The edge turns away from the segment; another one may begin there.
-    for (const Pixel& p : outliers_) setLabel(p, Label::kFree);
-    const Pixel& p = walker.at;
-    const Pixel& q = walker.before;
+    for (const EdgePixel& p : outliers_) setLabel(p, Label::kFree);
+    const EdgePixel& p = walker.at;
+    const EdgePixel& q = walker.before;
     const Direction direction = walker.vertical
                                     ? (p.y > q.y ? Direction::kDown : Direction::kUp)
                                     : (p.x > q.x ? Direction::kRight : Direction::kLeft);
     schedule(&reused, direction, p, Side::kEnd);
-    std::vector<Pixel>& preset = stack_[depth_ - 1].preset;
+    std::vector<EdgePixel>& preset = stack_[depth_ - 1].preset;
     preset.push_back(pixels_.back());
     preset.insert(preset.end(), outliers_.begin(), outliers_.end());
   }
   return continueSegment(&reused, anchor, strayed || hit);
 }
 
-bool Drawing::continueSegment(bool* reused, Pixel anchor, bool obstructed) {
+bool Drawing::continueSegment(bool* reused, EdgePixel anchor, bool obstructed) {
   if (obstructed && !end_.extended && jump(Side::kEnd)) {
     schedule(reused, lineDirection(), pixels_.back(), Side::kEnd);
     return true;

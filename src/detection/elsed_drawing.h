@@ -18,8 +18,8 @@ enum class Label : std::uint8_t { kFree, kEdge, kAnchor, kInlier, kOutlier, kJun
 struct DrawnSegment {
   IncrementalLine::Equation line;
   bool horizontal = true;
-  Pixel first;
-  Pixel last;
+  EdgePixel first;
+  EdgePixel last;
   std::size_t begin = 0;
   std::size_t end = 0;
   std::int64_t size = 0;  ///< pixels in the line's fit
@@ -34,8 +34,8 @@ class Drawing {
   void draw(const GradientMaps& maps);
 
   const std::vector<DrawnSegment>& segments() const { return segments_; }
-  const std::vector<Pixel>& pixels() const { return pixels_; }
-  Label label(Pixel p) const { return labels_[maps_->at(p.x, p.y)]; }
+  const std::vector<EdgePixel>& pixels() const { return pixels_; }
+  Label label(EdgePixel p) const { return labels_[maps_->at(p.x, p.y)]; }
 
  private:
   enum class Direction : std::uint8_t { kUp, kDown, kLeft, kRight };
@@ -43,8 +43,8 @@ class Drawing {
 
   /// The end of a segment that grows: its outermost pixel, and the one before it.
   struct Tip {
-    Pixel pixel;
-    Pixel before;
+    EdgePixel pixel;
+    EdgePixel before;
     std::size_t added = 0;  // pixels that came on this side after the first fit
     bool extended = false;  // nothing is left to try here
   };
@@ -52,57 +52,57 @@ class Drawing {
   /// Where to go on later: `preset` are pixels of the walk that led there.
   struct Branch {
     Direction direction = Direction::kRight;
-    Pixel start;
+    EdgePixel start;
     Side side = Side::kEnd;
-    std::vector<Pixel> preset;
+    std::vector<EdgePixel> preset;
   };
 
   struct Walker {
-    Pixel at;
-    Pixel before;
+    EdgePixel at;
+    EdgePixel before;
     bool vertical = false;  // the edge here runs rather up than sideways
   };
 
   void findAnchors(const GradientMaps& maps);
   void sortAnchorsByColumn(int width);
-  void drawFrom(Pixel anchor);
-  void drawOneWay(Pixel anchor, Direction direction, bool first_way);
+  void drawFrom(EdgePixel anchor);
+  void drawOneWay(EdgePixel anchor, Direction direction, bool first_way);
   bool walkBranch(Walker* walker, Side side, std::size_t* window);
-  void growWithoutSegment(Pixel p, std::size_t* window);
+  void growWithoutSegment(EdgePixel p, std::size_t* window);
   void rememberForTheOtherWay(std::size_t window);
-  void undoLastInlier(Side side, Pixel anchor);
-  bool scheduleSuccessors(const Walker& walker, Side side, Pixel anchor, bool hit);
-  void schedule(bool* reused, Direction direction, Pixel start, Side side);
-  bool continueSegment(bool* reused, Pixel anchor, bool obstructed);
+  void undoLastInlier(Side side, EdgePixel anchor);
+  bool scheduleSuccessors(const Walker& walker, Side side, EdgePixel anchor, bool hit);
+  void schedule(bool* reused, Direction direction, EdgePixel start, Side side);
+  bool continueSegment(bool* reused, EdgePixel anchor, bool obstructed);
   void finishSegment();
-  void addToSegment(Pixel p, Side side);
+  void addToSegment(EdgePixel p, Side side);
 
   bool jump(Side side);
   bool walkBeyond(int steps);
   bool gradientsAgree(const IncrementalLine::Equation& line) const;
   void addJunction(Side side);
-  void bresenham(Pixel from, Pixel to);
+  void bresenham(EdgePixel from, EdgePixel to);
 
   bool step(Walker* walker) const;
   Direction lineDirection() const;
   static Direction opposite(Direction direction);
-  static Walker walkerAt(Pixel start, Direction direction);
+  static Walker walkerAt(EdgePixel start, Direction direction);
 
   unsigned strength(int x, int y) const { return maps_->strength[maps_->at(x, y)] >> 1U; }
-  void setLabel(Pixel p, Label label) { labels_[maps_->at(p.x, p.y)] = label; }
+  void setLabel(EdgePixel p, Label label) { labels_[maps_->at(p.x, p.y)] = label; }
   Tip& tip(Side side) { return side == Side::kEnd ? end_ : start_; }
 
   ElsedParameters parameters_;
   const GradientMaps* maps_ = nullptr;
   std::vector<Label> labels_;
-  std::vector<Pixel> anchors_;
-  std::vector<Pixel> unsorted_anchors_;
+  std::vector<EdgePixel> anchors_;
+  std::vector<EdgePixel> unsorted_anchors_;
   std::vector<std::uint32_t> column_ends_;
   std::vector<std::uint8_t> anchor_flags_;
 
-  std::vector<Pixel> pixels_;  // all that were drawn, in order
+  std::vector<EdgePixel> pixels_;  // all that were drawn, in order
   std::vector<DrawnSegment> segments_;
-  std::vector<Pixel> initial_pixels_;  // of the first way, for the second
+  std::vector<EdgePixel> initial_pixels_;  // of the first way, for the second
 
   // The segment under construction.
   IncrementalLine line_;
@@ -117,9 +117,9 @@ class Drawing {
   // Branches [0, depth_) of the stack; the rest keep their memory.
   std::vector<Branch> stack_;
   std::size_t depth_ = 0;
-  std::vector<Pixel> outliers_;
-  std::vector<Pixel> junction_;
-  std::vector<Pixel> beyond_;
+  std::vector<EdgePixel> outliers_;
+  std::vector<EdgePixel> junction_;
+  std::vector<EdgePixel> beyond_;
 };
 
 }  // namespace evolin::elsed

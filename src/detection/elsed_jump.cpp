@@ -26,13 +26,13 @@ double difference(double a, double b) {
 
 }  // namespace
 
-void Drawing::bresenham(Pixel from, Pixel to) {
+void Drawing::bresenham(EdgePixel from, EdgePixel to) {
   const int dx = std::abs(to.x - from.x);
   const int dy = std::abs(to.y - from.y);
   const int step_x = from.x < to.x ? 1 : -1;
   const int step_y = from.y < to.y ? 1 : -1;
   int error = dx - dy;
-  Pixel p = from;
+  EdgePixel p = from;
   while (true) {
     junction_.push_back(p);
     if (p == to) {
@@ -56,7 +56,7 @@ bool Drawing::jump(Side side) {
   }
   const IncrementalLine::Equation line = line_.equation();
   const double sign = side == Side::kEnd ? 1 : -1;
-  const Pixel from = tip(side).pixel;
+  const EdgePixel from = tip(side).pixel;
   beyond_.clear();
   for (const int steps : kJumps) {
     if (line_.size() <= steps) {
@@ -69,10 +69,10 @@ bool Drawing::jump(Side side) {
           y < static_cast<float>(maps_->height))) {
       continue;
     }
-    const Pixel corner{static_cast<int>(x), static_cast<int>(y)};
-    Pixel target = corner;
-    for (const Pixel offset : {Pixel{1, 0}, Pixel{0, 1}, Pixel{1, 1}}) {
-      const Pixel p{corner.x + offset.x, corner.y + offset.y};
+    const EdgePixel corner{static_cast<int>(x), static_cast<int>(y)};
+    EdgePixel target = corner;
+    for (const EdgePixel offset : {EdgePixel{1, 0}, EdgePixel{0, 1}, EdgePixel{1, 1}}) {
+      const EdgePixel p{corner.x + offset.x, corner.y + offset.y};
       if (p.x < maps_->width && p.y < maps_->height &&
           strength(p.x, p.y) > strength(target.x, target.y)) {
         target = p;
@@ -112,7 +112,7 @@ bool Drawing::gradientsAgree(const IncrementalLine::Equation& line) const {
   float xx = 0;
   float xy = 0;
   float yy = 0;
-  for (const Pixel& p : beyond_) {
+  for (const EdgePixel& p : beyond_) {
     for (int k = -1; k <= 1; ++k) {
       const int x = std::clamp(p.x + (line_.horizontal() ? 0 : k), 0, maps_->width - 1);
       const int y = std::clamp(p.y + (line_.horizontal() ? k : 0), 0, maps_->height - 1);

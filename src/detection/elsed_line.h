@@ -6,14 +6,9 @@
 #include <cstdlib>
 #include <utility>
 
+#include "pixel_chains.h"
+
 namespace evolin::elsed {
-
-struct Pixel {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-
-  bool operator==(const Pixel& other) const { return x == other.x && y == other.y; }
-};
 
 /// Ordinary least squares in the coordinate across the segment, from whole-number sums: adding and
 /// removing pixels leaves no rounding behind.
@@ -34,8 +29,8 @@ class IncrementalLine {
     dy_ = dy;
   }
 
-  void add(Pixel p) { count(p, 1); }
-  void remove(Pixel p) { count(p, -1); }
+  void add(EdgePixel p) { count(p, 1); }
+  void remove(EdgePixel p) { count(p, -1); }
 
   std::int64_t size() const { return n_; }
   bool horizontal() const { return horizontal_; }
@@ -68,7 +63,7 @@ class IncrementalLine {
   }
 
   /// Is the distance of `p` from the line below the root of `squared_limit`?
-  bool isNear(Pixel p, double squared_limit) const {
+  bool isNear(EdgePixel p, double squared_limit) const {
     const double residual = a_ * p.x + b_ * p.y + c_;
     return residual * residual < squared_limit * squared_norm_;
   }
@@ -92,7 +87,7 @@ class IncrementalLine {
   }
 
  private:
-  void count(Pixel p, std::int64_t sign) {
+  void count(EdgePixel p, std::int64_t sign) {
     const std::int64_t u = horizontal_ ? p.x : p.y;
     const std::int64_t v = horizontal_ ? p.y : p.x;
     n_ += sign;

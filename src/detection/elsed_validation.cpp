@@ -44,13 +44,13 @@ Verdict validate(const Drawing& drawing, const DrawnSegment& segment, const Grad
   // Gradients of nothing have the angle 0.
   const bool flat_agrees = std::abs(std::atan2(b, std::abs(a))) <= threshold;
   const int margin = static_cast<int>(std::min(5.0, 0.1 * static_cast<double>(segment.size)));
-  const auto along = [&](Pixel p) { return segment.horizontal ? p.x : p.y; };
+  const auto along = [&](EdgePixel p) { return segment.horizontal ? p.x : p.y; };
   const int low = std::min(along(segment.first), along(segment.last)) + margin;
   const int high = std::max(along(segment.first), along(segment.last)) - margin;
 
   Verdict verdict;
   for (std::size_t i = segment.begin; i < segment.end; ++i) {
-    const Pixel p = drawing.pixels()[i];
+    const EdgePixel p = drawing.pixels()[i];
     if (along(p) < low || along(p) > high || drawing.label(p) != Label::kInlier) {
       continue;
     }

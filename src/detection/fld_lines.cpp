@@ -46,37 +46,16 @@ struct Line {
   double distance(EdgePixel p) const { return std::abs(a * p.x + b * p.y + c); }
 };
 
-/// Sums over the pixels of a line.
-class Sums {
- public:
-  void add(EdgePixel p) {
-    ++n_;
-    x_ += p.x;
-    y_ += p.y;
-    xx_ += static_cast<double>(p.x) * p.x;
-    yy_ += static_cast<double>(p.y) * p.y;
-    xy_ += static_cast<double>(p.x) * p.y;
-  }
-
-  /// The line of least squared distances, rounded as OpenCV's: whether a pixel is within a distance
-  /// may depend on it.
-  Line fit() const {
-    const double x = x_ / n_;
-    const double y = y_ / n_;
-    const double spread = (xx_ / n_ - x * x) - (yy_ / n_ - y * y);
-    const double angle = static_cast<float>(std::atan2(2 * (xy_ / n_ - x * y), spread)) / 2;
-    return Line::through(static_cast<float>(x), static_cast<float>(y),
-                         static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
-  }
-
- private:
-  double n_ = 0;
-  double x_ = 0;
-  double y_ = 0;
-  double xx_ = 0;
-  double yy_ = 0;
-  double xy_ = 0;
-};
+/// The line of least squared distances, rounded as OpenCV's: whether a pixel is within a distance
+/// may depend on it.
+Line fit(const PixelSums& sums) {
+  const double x = sums.x / sums.n;
+  const double y = sums.y / sums.n;
+  const double spread = (sums.xx / sums.n - x * x) - (sums.yy / sums.n - y * y);
+  const double angle = static_cast<float>(std::atan2(2 * (sums.xy / sums.n - x * y), spread)) / 2;
+  return Line::through(static_cast<float>(x), static_cast<float>(y),
+                       static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
+}
 
 }  // namespace
 
@@ -171,9 +150,9 @@ void LineFinder::extractLines() {
       ++begin;
       continue;
     }
-    Sums sums;
+    PixelSums sums;
     for (std::size_t k = begin; k <= begin + window; ++k) sums.add(chain_[k]);
-    Line line = sums.fit();
+    Line line = fit(sums);
     const auto project = [this](const Line& onto, double x, double y) {
       const double distance = onto.a * x + onto.b * y + onto.c;
       // In single precision, in which a line of ten pixels is not a little shorter.
@@ -185,14 +164,14 @@ void LineFinder::extractLines() {
     std::size_t end = begin + window + 1;
     for (; end < chain_.size(); ++end) {
       if (line.distance(chain_[end]) > limit) {
-        line = sums.fit();
+        line = fit(sums);
         if (line.distance(chain_[end]) > limit) {
           break;
         }
       }
       sums.add(chain_[end]);
     }
-    line = sums.fit();
+    line = fit(sums);
     const EdgePixel last = chain_[end - 1];
     // The start was rounded to a pixel after the first fit.
     const cv::Point2f a = project(line, std::nearbyint(start.x), std::nearbyint(start.y));

@@ -21,17 +21,6 @@ void Validation::start(const Field& field) {
                std::log10(static_cast<double>(kVariants));
 }
 
-double Validation::logFactorial(int n) {
-  if (log_factorials_.empty()) {
-    log_factorials_.push_back(0);
-  }
-  while (static_cast<int>(log_factorials_.size()) <= n) {
-    log_factorials_.push_back(log_factorials_.back() +
-                              std::log(static_cast<double>(log_factorials_.size())));
-  }
-  return log_factorials_[static_cast<std::size_t>(n)];
-}
-
 double Validation::logNfa(int pixels, int aligned, double chance) {
   if (pixels == 0 || aligned == 0) {
     return -log_tests_;
@@ -40,8 +29,8 @@ double Validation::logNfa(int pixels, int aligned, double chance) {
     return -log_tests_ - pixels * std::log10(chance);
   }
   // The binomial tail from its first term on; each term follows from the one before.
-  const double log_first = (compatible_ ? pixels + 1 : logFactorial(pixels)) -
-                           logFactorial(aligned) - logFactorial(pixels - aligned) +
+  const double log_first = (compatible_ ? pixels + 1 : log_factorial_(pixels)) -
+                           log_factorial_(aligned) - log_factorial_(pixels - aligned) +
                            aligned * std::log(chance) + (pixels - aligned) * std::log1p(-chance);
   double term = std::exp(log_first);
   if (term < 1e-300) {

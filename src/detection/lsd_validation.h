@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
+#include "log_factorials.h"
 #include "lsd_region.h"
 
 namespace evolin::lsd {
 
-/// Keeps a table of logarithms of factorials.
+/// Keeps its table of logarithms of factorials.
 class Validation {
  public:
   /// `compatible`: as OpenCV before 4.8, see LsdParameters.
@@ -39,7 +39,6 @@ class Validation {
   using Corners = std::array<Point, 4>;
 
   static Corners cornersOf(const Rectangle& r);
-  double logFactorial(int n);
   void scan(const Rectangle& r);
   void scanInWholePixels(const Rectangle& r);
   void count(const Rectangle& r, int y, double left, double right);
@@ -49,7 +48,7 @@ class Validation {
   int aligned_ = 0;  // of those
   const Field* field_ = nullptr;
   double log_tests_ = 0;
-  std::vector<double> log_factorials_;
+  LogFactorials log_factorial_;
 };
 
 }  // namespace evolin::lsd

@@ -20,6 +20,30 @@ inline bool areNeighbours(EdgePixel a, EdgePixel b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1;
 }
 
+/// Sums of coordinates over a set of pixels: whole numbers, exact up to 2^53, so that the order in
+/// which pixels come and go leaves no rounding behind.
+struct PixelSums {
+  double n = 0;
+  double x = 0;
+  double y = 0;
+  double xx = 0;
+  double yy = 0;
+  double xy = 0;
+
+  void add(EdgePixel p, double times = 1) {
+    const double px = p.x;
+    const double py = p.y;
+    n += times;
+    x += times * px;
+    y += times * py;
+    xx += times * px * px;
+    yy += times * py * py;
+    xy += times * px * py;
+  }
+
+  void remove(EdgePixel p) { add(p, -1); }
+};
+
 /// Chain i holds pixels[begin(i)] to pixels[ends[i] - 1]; what lies behind the last end is a chain
 /// under construction. Keeps its memory when it is cleared.
 struct PixelChains {

@@ -61,7 +61,8 @@ Band readBand(const LineSegment& line, const DepthMap& depth, const SegmentFitOp
   const double dy = (line.y2 - line.y1) / length;
   const int rings = static_cast<int>(std::floor(options.reach));
   Band band;
-  band.positions = std::clamp(static_cast<int>(length) + 1, 2, options.positions);
+  band.positions = static_cast<int>(
+      std::clamp(std::floor(length) + 1, 2.0, static_cast<double>(options.positions)));
   std::vector<cv::Point> pixels;
   for (int position = 0; position < band.positions; ++position) {
     const double along = length * position / (band.positions - 1);

@@ -66,6 +66,51 @@ std::uint64_t elementSize(std::uint64_t type) {
   }
 }
 
+/// Where a TensorProto keeps its elements besides `raw_data`.
+enum class TypedData : std::uint32_t {
+  kNone = 0,
+  kFloats = 4,
+  kInt32s = 5,  ///< and whatever is shorter
+  kInt64s = 7,
+  kDoubles = 10,
+  kUint64s = 11  ///< and uint32
+};
+
+TypedData typedDataOf(std::uint64_t type) {
+  switch (type) {
+    case 1:
+      return TypedData::kFloats;
+    case 7:
+      return TypedData::kInt64s;
+    case 11:
+      return TypedData::kDoubles;
+    case 12:
+    case 13:
+      return TypedData::kUint64s;
+    default:
+      return elementSize(type) > 0 ? TypedData::kInt32s : TypedData::kNone;
+  }
+}
+
+/// Elements in such a field, packed or one by one.
+std::uint64_t elementsIn(const Field& field, TypedData data) {
+  if (data == TypedData::kFloats || data == TypedData::kDoubles) {
+    const std::uint64_t size = data == TypedData::kFloats ? 4 : 8;
+    const Wire single = data == TypedData::kFloats ? Wire::kFixed32 : Wire::kFixed64;
+    if (field.wire == single) {
+      return 1;
+    }
+    if (field.wire != Wire::kBytes || field.bytes.size() % size != 0) {
+      throw Malformed("weights that are no whole numbers of elements");
+    }
+    return field.bytes.size() / size;
+  }
+  if (field.wire != Wire::kBytes && field.wire != Wire::kVarint) {
+    throw Malformed("weights that are no whole numbers");
+  }
+  return numbersOf(field).size();
+}
+
 /// Follows a GraphProto.
 class Graph {
  public:
@@ -148,7 +193,7 @@ class Graph {
     Reader reader(message);
     Field field;
     while (reader.next(&field)) {
-      if (field.number == 5) {  // a tensor
+      if (field.number == 5 || field.number == 10) {  // a tensor, and several
         weight(field.bytes);
       } else if (field.number == 8 && field.wire == Wire::kBytes) {  // whole numbers
         numbersOf(field);
@@ -163,8 +208,8 @@ class Graph {
     std::string name;
     std::uint64_t elements = 1;
     std::uint64_t type = 0;
-    std::uint64_t typed_bytes = 0;  // of float_data, as far as it is packed
-    bool has_raw = false;
+    TypedData typed = TypedData::kNone;
+    std::uint64_t typed_elements = 0;
     std::uint64_t raw_bytes = 0;
     while (reader.next(&field)) {
       switch (field.number) {
@@ -179,14 +224,21 @@ class Graph {
         case 2:
           type = field.value;
           break;
-        case 4:
-          typed_bytes += field.wire == Wire::kBytes ? field.bytes.size() : 4;
+        case static_cast<std::uint32_t>(TypedData::kFloats):
+        case static_cast<std::uint32_t>(TypedData::kInt32s):
+        case static_cast<std::uint32_t>(TypedData::kInt64s):
+        case static_cast<std::uint32_t>(TypedData::kDoubles):
+        case static_cast<std::uint32_t>(TypedData::kUint64s):
+          if (typed != TypedData::kNone && typed != static_cast<TypedData>(field.number)) {
+            throw Malformed("a weight with elements of two types");
+          }
+          typed = static_cast<TypedData>(field.number);
+          typed_elements += elementsIn(field, typed);
           break;
         case 8:
           name = field.bytes;
           break;
         case 9:
-          has_raw = true;
           raw_bytes = field.bytes.size();
           break;
         case 13:
@@ -201,11 +253,16 @@ class Graph {
       throw Malformed("the weight " + quote(name) + " is of type " + std::to_string(type) +
                       ", which is not supported");
     }
-    const std::uint64_t expected = elements * size;
-    if (has_raw ? raw_bytes != expected : (type == 1 && typed_bytes != expected)) {
+    if (typed_elements > 0 && (raw_bytes > 0 || typed != typedDataOf(type))) {
+      throw Malformed("the weight " + quote(name) +
+                      " has elements besides its bytes, or of another type than its own");
+    }
+    if (typed_elements > 0 ? typed_elements != elements : raw_bytes != elements * size) {
       throw Malformed("the weight " + quote(name) + " has " +
-                      std::to_string(has_raw ? raw_bytes : typed_bytes) + " bytes instead of " +
-                      std::to_string(expected));
+                      (typed_elements > 0 ? std::to_string(typed_elements) + " elements"
+                                          : std::to_string(raw_bytes) + " bytes") +
+                      " instead of " +
+                      std::to_string(typed_elements > 0 ? elements : elements * size));
     }
     return name;
   }

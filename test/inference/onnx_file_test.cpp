@@ -74,6 +74,60 @@ TEST_F(OnnxFileTest, RefusesWhatDoesNotHangTogether) {
                 "more than one graph");
 }
 
+/// A network beside which there is a weight of these types and fields, with a shape of `elements`.
+std::string withWeight(std::uint64_t type, std::uint64_t elements, const std::string& data) {
+  return onnx::model(onnx::absoluteGraph(8) +
+                     onnx::bytes(5, onnx::number(1, elements) + onnx::number(2, type) +
+                                        onnx::bytes(8, "w") + data));
+}
+
+TEST_F(OnnxFileTest, WeightsMayBeListedByTheirType) {
+  struct Listed {
+    std::uint64_t type;
+    unsigned field;
+    std::string two;  // elements, packed
+    std::string one;  // element by itself
+  };
+  const std::string large = onnx::varint(1ULL << 40U);
+  const std::vector<Listed> all = {
+      {1, 4, std::string(8, 'a'), onnx::varint(4U << 3U | 5U) + "abcd"},
+      {6, 5, onnx::varint(300) + onnx::varint(1), onnx::number(5, 300)},
+      {9, 5, onnx::varint(1) + onnx::varint(0), onnx::number(5, 1)},
+      {10, 5, onnx::varint(300) + onnx::varint(1), onnx::number(5, 300)},
+      {7, 7, large + onnx::varint(1), onnx::number(7, 1ULL << 40U)},
+      {11, 10, std::string(16, 'a'), onnx::varint(10U << 3U | 1U) + "abcdefgh"},
+      {12, 11, large + onnx::varint(1), onnx::number(11, 7)},
+      {13, 11, large + onnx::varint(1), onnx::number(11, 7)}};
+  for (const Listed& one : all) {
+    SCOPED_TRACE(one.type);
+    const std::string packed = onnx::bytes(one.field, one.two);
+    EXPECT_EQ(read(withWeight(one.type, 2, packed)).nodes, 1U);
+    EXPECT_EQ(read(withWeight(one.type, 3, packed + one.one)).nodes, 1U);
+    expectRefused(withWeight(one.type, 3, packed), "'w' has 2 elements instead of 3");
+    expectRefused(withWeight(one.type, 1, packed), "'w' has 2 elements instead of 1");
+    expectRefused(withWeight(one.type, 2, ""), "'w' has 0 bytes instead of ");
+    expectRefused(withWeight(one.type, 2, packed + onnx::bytes(9, "raw")), "besides its bytes");
+    const unsigned foreign = one.field == 7 ? 5 : 7;
+    expectRefused(withWeight(one.type, 2, onnx::bytes(foreign, onnx::varint(1) + onnx::varint(2))),
+                  "of another type");
+    expectRefused(withWeight(one.type, 3, packed + onnx::number(foreign, 1)), "of two types");
+  }
+  expectRefused(withWeight(1, 2, onnx::bytes(4, "1234567")), "no whole numbers of elements");
+  expectRefused(withWeight(7, 1, onnx::varint(7U << 3U | 5U) + "abcd"), "no whole numbers");
+}
+
+TEST_F(OnnxFileTest, TensorsOfANodeAreWeightsToo) {
+  const std::string tensor = onnx::number(1, 2) + onnx::number(2, 7) + onnx::bytes(8, "t");
+  for (const unsigned field : {5U, 10U}) {
+    const std::string node =
+        onnx::node("Abs", {"image"}, "maps") +
+        onnx::bytes(5, onnx::bytes(field, tensor + onnx::bytes(7, onnx::varint(1))));
+    expectRefused(onnx::model(onnx::bytes(1, node) + onnx::bytes(11, onnx::value("image", {4})) +
+                              onnx::bytes(12, onnx::value("maps", {4}))),
+                  "'t' has 1 elements instead of 2");
+  }
+}
+
 TEST_F(OnnxFileTest, RefusesFoldersAndMissingFiles) {
   test::expectError<ParseError>([&] { readOnnxFile(folder_.path()); }, {folder_.path().string()});
   test::expectError<ParseError>([&] { readOnnxFile(folder_.path() / "none.onnx"); },

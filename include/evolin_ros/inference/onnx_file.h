@@ -30,10 +30,11 @@ struct OnnxFile {
   bool isAsRecorded() const { return !recorded_digest.empty() && recorded_digest == graph_digest; }
 };
 
-/// Reads the file and follows its structure (ONNX: onnx.proto3) through all nodes and weights:
-/// every node's inputs are the graph's inputs, weights or outputs of earlier nodes, and every
-/// weight has as many bytes as its shape asks for. Throws ParseError naming the file for anything
-/// else, for a file cut short, a folder, or one above 2 GB.
+/// Reads the file and follows its structure (ONNX: onnx.proto3) through all nodes and weights of
+/// the graph: every node's inputs are the graph's inputs, weights or outputs of earlier nodes, and
+/// every weight has as many bytes, or elements of its type, as its shape asks for. Graphs within a
+/// node (branches, loops) are not followed. Throws ParseError naming the file for anything else,
+/// for a file cut short, a folder, or one above 2 GB.
 OnnxFile readOnnxFile(const std::filesystem::path& file);
 
 }  // namespace evolin
