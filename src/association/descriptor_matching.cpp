@@ -179,17 +179,16 @@ class CandidatePairs {
  public:
   CandidatePairs(const cv::Mat& first, const std::vector<int>& first_rows, const cv::Mat& second,
                  const std::vector<int>& second_rows, const MatchingRules& rules)
-      : first_(first), first_rows_(first_rows), second_(second), second_rows_(second_rows) {
-    const Columns columns(second, second_rows);
-    stride_ = columns.count;
-    estimates_.resize(first_rows.size() * stride_);
-    for (std::size_t i = 0; i < first_rows.size(); ++i) {
-      estimateDistances(first.ptr<float>(first_rows[i]), columns.values.data(),
-                        static_cast<std::size_t>(first.cols), stride_,
-                        estimates_.data() + i * stride_);
-    }
-    if (rules.may_match) {
-      leaveOut(rules);
+      : first_(first),
+        first_rows_(first_rows),
+        second_(second),
+        second_rows_(second_rows),
+        rules_(rules),
+        columns_(second, second_rows),
+        keeps_all_(first_rows.size() * columns_.count <= kLargestMatrix) {
+    estimates_.resize(keeps_all_ ? first_rows.size() * columns_.count : columns_.count);
+    for (std::size_t i = 0; keeps_all_ && i < first_rows.size(); ++i) {
+      estimate(i, estimates_.data() + i * columns_.count);
     }
     if (asksForRatio(rules)) {
       findLimits<SmallestTwo>([](const SmallestTwo& two) { return two.second; });
@@ -199,8 +198,8 @@ class CandidatePairs {
   }
 
   // Offers row i of the first to the nearest of both sides.
-  void offer(std::size_t i, std::vector<Nearest>* of_first, std::vector<Nearest>* of_second) const {
-    const float* const row = estimates_.data() + i * stride_;
+  void offer(std::size_t i, std::vector<Nearest>* of_first, std::vector<Nearest>* of_second) {
+    const float* const row = estimatesOf(i);
     for (std::size_t j = 0; j < second_rows_.size(); ++j) {
       if (row[j] <= std::max(first_limits_[i], second_limits_[j])) {
         const double distance = squaredDistance(first_.ptr<float>(first_rows_[i]),
@@ -218,16 +217,28 @@ class CandidatePairs {
     void offer(float other) { value = std::min(value, other); }
   };
 
-  // Nothing compares with NaN.
-  void leaveOut(const MatchingRules& rules) {
-    for (std::size_t i = 0; i < first_rows_.size(); ++i) {
-      for (std::size_t j = 0; j < second_rows_.size(); ++j) {
-        if (!rules.may_match(static_cast<std::size_t>(first_rows_[i]),
-                             static_cast<std::size_t>(second_rows_[j]))) {
-          estimates_[i * stride_ + j] = std::numeric_limits<float>::quiet_NaN();
-        }
+  // Estimates of all pairs, 64 MB; where there are more each row is estimated when it is asked for.
+  static constexpr std::size_t kLargestMatrix = std::size_t{1} << 24;
+
+  // Pairs that may not match get NaN, with which nothing compares.
+  void estimate(std::size_t i, float* row) const {
+    estimateDistances(first_.ptr<float>(first_rows_[i]), columns_.values.data(),
+                      static_cast<std::size_t>(first_.cols), columns_.count, row);
+    for (std::size_t j = 0; rules_.may_match && j < second_rows_.size(); ++j) {
+      if (!rules_.may_match(static_cast<std::size_t>(first_rows_[i]),
+                            static_cast<std::size_t>(second_rows_[j]))) {
+        row[j] = std::numeric_limits<float>::quiet_NaN();
       }
     }
+  }
+
+  // Until the next call.
+  const float* estimatesOf(std::size_t i) {
+    if (keeps_all_) {
+      return estimates_.data() + i * columns_.count;
+    }
+    estimate(i, estimates_.data());
+    return estimates_.data();
   }
 
   // `Lowest` takes the estimates of a row or column, `limit` says which of them counts.
@@ -236,7 +247,7 @@ class CandidatePairs {
     std::vector<Lowest> of_second(second_rows_.size());
     first_limits_.resize(first_rows_.size());
     for (std::size_t i = 0; i < first_rows_.size(); ++i) {
-      const float* const row = estimates_.data() + i * stride_;
+      const float* const row = estimatesOf(i);
       Lowest of_first;
       for (std::size_t j = 0; j < second_rows_.size(); ++j) {
         of_first.offer(row[j]);
@@ -254,7 +265,9 @@ class CandidatePairs {
   const std::vector<int>& first_rows_;
   const cv::Mat& second_;
   const std::vector<int>& second_rows_;
-  std::size_t stride_ = 0;
+  const MatchingRules& rules_;
+  Columns columns_;
+  bool keeps_all_;
   std::vector<float> estimates_;
   std::vector<float> first_limits_;
   std::vector<float> second_limits_;
@@ -272,7 +285,7 @@ LineMatches matchDescriptors(const cv::Mat& first, const cv::Mat& second,
   requireEqualWidth(first, second);
   const std::vector<int> first_rows = finiteRows(first);
   const std::vector<int> second_rows = finiteRows(second);
-  const CandidatePairs candidates(first, first_rows, second, second_rows, rules);
+  CandidatePairs candidates(first, first_rows, second, second_rows, rules);
   const auto offer = [&](std::size_t i, auto* of_first, auto* of_second) {
     candidates.offer(i, of_first, of_second);
   };

@@ -120,6 +120,24 @@ TEST(DescriptorMatching, AsksWhetherRowsMayMatchByTheirPlaceInTheMatrix) {
   EXPECT_EQ(pairs(matchDescriptors(first, second, gated)), (IndexPairs{{1, 2}, {2, 1}}));
 }
 
+// 5,000 rows by 5,000: more pairs than are kept at a time.
+TEST(DescriptorMatching, PairsManyRowsAsItPairsFew) {
+  constexpr int kRows = 5000;
+  cv::Mat first(kRows, 2, CV_32F);
+  cv::Mat second(kRows, 2, CV_32F);
+  for (int i = 0; i < kRows; ++i) {
+    first.at<float>(i, 0) = static_cast<float>(i % 100);
+    first.at<float>(i, 1) = static_cast<float>(i / 100);
+    first.row(i).copyTo(second.row(kRows - 1 - i));
+  }
+  const LineMatches matches = matchDescriptors(first, second, {});
+  ASSERT_EQ(matches.size(), static_cast<std::size_t>(kRows));
+  for (const LineMatch& match : matches) {
+    ASSERT_EQ(match.first + match.second, static_cast<unsigned>(kRows - 1));
+    ASSERT_EQ(match.distance, 0);
+  }
+}
+
 TEST(DescriptorMatching, LeavesRowsWithNanOut) {
   const cv::Mat first = (cv::Mat_<float>(3, 2) << kNan, 0, 1, 1, 2, 2);
   const cv::Mat second = (cv::Mat_<float>(3, 2) << 1, 1, 2, kNan, 2, 3);
