@@ -25,16 +25,7 @@ TEST_F(CannyLinesTest, NamesWhatIsWrongWithAParameter) {
 }
 
 TEST_F(CannyLinesTest, FindsBothSidesOfABar) {
-  Frame frame;
-  frame.image = cv::Mat(100, 120, CV_8UC1, cv::Scalar(30));
-  frame.image.colRange(50, 70).setTo(220);
-  const LineSegments lines = detector_.detect(frame);
-  ASSERT_EQ(lines.size(), 2U);
-  for (const LineSegment& line : lines) {
-    EXPECT_NEAR(line.x1, line.x2, 1e-6);
-    EXPECT_GT(line.length(), 90);
-    EXPECT_NEAR(std::abs(line.x1 - 59.5), 10, 0.51);
-  }
+  test::expectFindsBothSidesOfABar(&detector_, 90, 1e-6);
 }
 
 TEST_F(CannyLinesTest, ValidationDropsWhatNoiseHas) {
@@ -48,22 +39,10 @@ TEST_F(CannyLinesTest, ValidationDropsWhatNoiseHas) {
 }
 
 TEST_F(CannyLinesTest, ExtremeParametersWork) {
-  for (const char* parameters :
-       {"{sigma: 0.1}", "{sigma: 10}", "{meaningful_gradient: 1, validate: false}",
-        "{meaningful_gradient: 2040}", "{fit_error: 0.01}", "{fit_error: 10, validate: false}",
-        "{compatible: true, validate: false}"}) {
-    SCOPED_TRACE(parameters);
-    CannyLines detector;
-    detector.configure(YAML::Load(parameters));
-    test::expectSurvivesAwkwardImages(&detector);
-    for (const auto& [name, image] : test::adversarialImages()) {
-      Frame frame;
-      frame.image = image;
-      const LineSegments lines = detector.detect(frame);
-      test::expectSound(lines, detector, name);
-      test::expectLinesInImage(lines, image.size(), name);
-    }
-  }
+  test::expectExtremeParametersWork<CannyLines>(
+      {"{sigma: 0.1}", "{sigma: 10}", "{meaningful_gradient: 1, validate: false}",
+       "{meaningful_gradient: 2040}", "{fit_error: 0.01}", "{fit_error: 10, validate: false}",
+       "{compatible: true, validate: false}"});
 }
 
 // Errors of the published sums grow with the distance from the corner; ours have none.
@@ -107,20 +86,12 @@ TEST_F(CannyLinesTest, EqualsTheGoldenLines) {
   EVOLIN_REQUIRE_SHARED_DATA();
   CannyLines compatible;
   compatible.configure(YAML::Load("{compatible: true}"));
-  const test::GoldenAgreement agreement =
-      test::compareWithGolden(&compatible, "cannylines_cpp_sigma1", -1);
-  EXPECT_GE(agreement.nearShare(), 0.95);
-  EXPECT_NEAR(agreement.countRatio(), 1, 0.02);
-  RecordProperty("near_share", std::to_string(agreement.nearShare()));
+  test::expectNearGolden(&compatible, "cannylines_cpp_sigma1", 0.95, 0.02);
 }
 
 TEST_F(CannyLinesTest, IsNearTheGoldenLinesByDefault) {
   EVOLIN_REQUIRE_SHARED_DATA();
-  const test::GoldenAgreement agreement =
-      test::compareWithGolden(&detector_, "cannylines_cpp_sigma1", -1);
-  EXPECT_GE(agreement.nearShare(), 0.93);
-  EXPECT_NEAR(agreement.countRatio(), 1, 0.02);
-  RecordProperty("near_share", std::to_string(agreement.nearShare()));
+  test::expectNearGolden(&detector_, "cannylines_cpp_sigma1", 0.93, 0.02);
 }
 
 }  // namespace

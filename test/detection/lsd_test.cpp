@@ -64,22 +64,11 @@ TEST_F(LsdTest, FindsHardlyALineInNoise) {
 }
 
 TEST_F(LsdTest, ExtremeParametersWork) {
-  for (const char* parameters :
-       {"{scale: 0.1}", "{scale: 1}", "{scale: 1.7}", "{refine: none}", "{refine: standard}",
-        "{quantization: 0}", "{quantization: 255}", "{quantization: 255, angle_tolerance: 0.1}",
-        "{bins: 1}", "{bins: 65536}", "{bins: 65536, compatible: false}", "{angle_tolerance: 89}",
-        "{density_threshold: 0.99}", "{log_eps: 1000}", "{log_eps: -1000}"}) {
-    SCOPED_TRACE(parameters);
-    Lsd detector;
-    test::expectSurvivesAwkwardImages(configured(&detector, parameters));
-    for (const auto& [name, image] : test::adversarialImages()) {
-      Frame frame;
-      frame.image = image;
-      const LineSegments lines = detector.detect(frame);
-      test::expectSound(lines, detector, name);
-      test::expectLinesInImage(lines, image.size(), name);
-    }
-  }
+  test::expectExtremeParametersWork<Lsd>(
+      {"{scale: 0.1}", "{scale: 1}", "{scale: 1.7}", "{refine: none}", "{refine: standard}",
+       "{quantization: 0}", "{quantization: 255}", "{quantization: 255, angle_tolerance: 0.1}",
+       "{bins: 1}", "{bins: 65536}", "{bins: 65536, compatible: false}", "{angle_tolerance: 89}",
+       "{density_threshold: 0.99}", "{log_eps: 1000}", "{log_eps: -1000}"});
 }
 
 TEST_F(LsdTest, EqualsTheGoldenLines) {

@@ -72,21 +72,10 @@ TEST_F(LswmsTest, CompatibleLinesAreShiftedByTheMarginsExcess) {
 }
 
 TEST_F(LswmsTest, ExtremeParametersWork) {
-  for (const char* parameters : {"{radius: 1}", "{radius: 15}", "{angle_tolerance: 1}",
-                                 "{angle_tolerance: 45, max_error: 1.6}", "{max_error: 0.001}",
-                                 "{score: length}", "{compatible: true}"}) {
-    SCOPED_TRACE(parameters);
-    Lswms detector;
-    detector.configure(YAML::Load(parameters));
-    test::expectSurvivesAwkwardImages(&detector);
-    for (const auto& [name, image] : test::adversarialImages()) {
-      Frame frame;
-      frame.image = image;
-      const LineSegments lines = detector.detect(frame);
-      test::expectSound(lines, detector, name);
-      test::expectLinesInImage(lines, image.size(), name);
-    }
-  }
+  test::expectExtremeParametersWork<Lswms>({"{radius: 1}", "{radius: 15}", "{angle_tolerance: 1}",
+                                            "{angle_tolerance: 45, max_error: 1.6}",
+                                            "{max_error: 0.001}", "{score: length}",
+                                            "{compatible: true}"});
 }
 
 TEST_F(LswmsTest, EqualsTheGoldenLines) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -126,6 +127,54 @@ inline void expectLinesInImage(const LineSegments& lines, cv::Size size, const s
       ASSERT_TRUE(y >= -0.5 && y <= size.height - 0.5) << what << " " << y;
     }
   }
+}
+
+/// Sound lines in the image for all adversarial images.
+inline void expectSurvivesAdversarialImages(LineDetector* detector) {
+  for (const auto& [name, image] : adversarialImages()) {
+    Frame frame;
+    frame.image = image;
+    const LineSegments lines = detector->detect(frame);
+    expectSound(lines, *detector, name);
+    expectLinesInImage(lines, image.size(), name);
+  }
+}
+
+/// With each of the parameter sets (YAML) it survives awkward and adversarial images.
+template <typename Detector>
+void expectExtremeParametersWork(std::initializer_list<const char*> parameter_sets) {
+  for (const char* parameters : parameter_sets) {
+    SCOPED_TRACE(parameters);
+    Detector detector;
+    detector.configure(YAML::Load(parameters));
+    expectSurvivesAwkwardImages(&detector);
+    expectSurvivesAdversarialImages(&detector);
+  }
+}
+
+/// Both edges of an upright bar, each longer than `least_length` of its 100 pixels and upright but
+/// for `tilt` pixels, and nothing else.
+inline void expectFindsBothSidesOfABar(LineDetector* detector, double least_length, double tilt) {
+  Frame frame;
+  frame.image = cv::Mat(100, 120, CV_8UC1, cv::Scalar(30));
+  frame.image.colRange(50, 70).setTo(220);
+  const LineSegments lines = detector->detect(frame);
+  ASSERT_EQ(lines.size(), 2U);
+  for (const LineSegment& line : lines) {
+    EXPECT_NEAR(line.x1, line.x2, tilt);
+    EXPECT_GT(line.length(), least_length);
+    EXPECT_NEAR(std::abs(line.x1 - 59.5), 10, 0.51);
+  }
+}
+
+/// compareWithGolden() without scores: at least `near_share` within a pixel, as many lines as there
+/// are but for the share `count_tolerance`. Records the share as `near_share`.
+inline void expectNearGolden(LineDetector* detector, const std::string& name, double near_share,
+                             double count_tolerance) {
+  const GoldenAgreement agreement = compareWithGolden(detector, name, -1);
+  EXPECT_GE(agreement.nearShare(), near_share);
+  EXPECT_NEAR(agreement.countRatio(), 1, count_tolerance);
+  ::testing::Test::RecordProperty("near_share", std::to_string(agreement.nearShare()));
 }
 
 /// Two instances that see images of changing sizes in different orders find the same in each, and
