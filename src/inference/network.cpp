@@ -44,8 +44,9 @@ std::filesystem::path locate(const NetworkInterface& interface, const std::strin
   }
   const std::string where =
       model.find('/') == std::string::npos ? " in " + searchedFolders() : std::string();
-  throw ConfigError(interface.owner, "model",
-                    "there is no file '" + model + "'" + where + ". " + interface.how_to_get);
+  // Like a library that is not there: a matrix of methods goes on with the others.
+  throw UnavailableError(interface.owner + ": parameter 'model': there is no file '" + model + "'" +
+                         where + ". " + interface.how_to_get);
 }
 
 OnnxFile readChecked(const NetworkInterface& interface, const std::filesystem::path& file,

@@ -125,9 +125,10 @@ TEST(Mlsd, SaysWhatIsWrongWithItsModel) {
     GTEST_SKIP() << whyNoNetworks();
   }
   Mlsd detector;
-  test::expectError<ConfigError>([&] { detector.configure(YAML::Load("{model: no_such.onnx}")); },
-                                 {"detector mlsd", "'model'", "no_such.onnx", "models",
-                                  "scripts/models/convert mlsd", "docs/NETWORKS.md"});
+  test::expectError<UnavailableError>(
+      [&] { detector.configure(YAML::Load("{model: no_such.onnx}")); },
+      {"detector mlsd", "'model'", "no_such.onnx", "models", "scripts/models/convert mlsd",
+       "docs/NETWORKS.md"});
   test::expectError<ConfigError>([&] { detector.configure(YAML::Load("{model: ''}")); },
                                  {"'model'", "empty"});
   test::expectError<ConfigError>([&] { detector.configure(YAML::Load("{backend: tensorrt}")); },

@@ -193,9 +193,9 @@ void expectHoldsAllDefaultsOfANetwork(const std::string& name) {
     detector.configure(file);
     EXPECT_TRUE(values(detector.parameters()) == defaults);
   } catch (const UnavailableError& error) {
-    GTEST_SKIP() << error.what();
-  } catch (const ConfigError& error) {
-    EXPECT_EQ(error.key(), "model") << error.what();
+    if (std::string(error.what()).find("parameter 'model'") == std::string::npos) {
+      GTEST_SKIP() << error.what();
+    }
   }
 }
 
