@@ -163,7 +163,7 @@ FrontEndOptions frontEndOf(const Json& parameters, bool with_matches, PluginLoad
   options.matches_source = methodSource(associator.name, associator.parameters);
   options.associate_ground_truth = parameters.value("associate", "ground-truth") != "detected";
   options.frame_step = parameters.value("frame_step", 1);
-  const Needs more = loader->loadAssociator(associator.name)->needs();
+  const Needs more = options.make_associator()->needs();  // configured: they may depend on it
   needs->depth = needs->depth || more.depth;
   needs->pose = needs->pose || more.pose;
   return options;
