@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "evolin_ros/base/sha256.h"
+#include "evolin_ros/evaluation/complete_frames.h"
 #include "package_files.h"
 
 namespace evolin::cli {
@@ -117,11 +118,18 @@ std::unique_ptr<PartReader> RecordingInput::open(const WantedParts& wanted,
     options.read_depth = wanted.motion || needs.depth;
     return openFolderParts(inputs_.front(), options, wanted);
   }
-  if (needs.depth || needs.pose) {
-    throw UnavailableError(std::string("a plug-in needs ") + (needs.depth ? "depth" : "poses") +
-                           ", which come with the frames of a folder, not with those of a bag");
+  const bool completed = needs.depth || needs.pose;
+  WantedParts read = wanted;
+  read.motion = wanted.motion || completed;
+  std::unique_ptr<PartReader> reader = openBagParts({inputs_.begin(), inputs_.end()}, bag_, read);
+  if (!completed) {
+    return reader;
   }
-  return openBagParts({inputs_.begin(), inputs_.end()}, bag_, wanted);
+  try {
+    return completeFrames(std::move(reader), needs, wanted);
+  } catch (const UnavailableError& error) {
+    throw UnavailableError(names() + ": " + error.what());
+  }
 }
 
 std::string RecordingInput::names() const {

@@ -128,7 +128,9 @@ std::size_t writeBag(const SynthOptions& options) {
   }
   TemporaryFile temporary(bag);
   const synthetic::SyntheticSequence sequence(options.sequence);
-  BagWriter writer(temporary.path());
+  // Noise, most of which LZ4 gives back as it was: the bag is a sixth larger without, and is read
+  // in less than half the time.
+  BagWriter writer(temporary.path(), BagCompression::kNone);
   std::vector<std::optional<SequenceFrame>> ready(sequence.size());
   std::vector<StampedFile> entries;
   std::size_t lines = 0;

@@ -44,8 +44,7 @@ std::filesystem::path locate(const NetworkInterface& interface, const std::strin
   }
   const std::string where =
       model.find('/') == std::string::npos ? " in " + searchedFolders() : std::string();
-  // The rest of the parameters may be right: what lacks is the method's network, as it may be
-  // the module that runs it.
+  // Like a library that is not there: a matrix of methods goes on with the others.
   throw UnavailableError(interface.owner + ": parameter 'model': there is no file '" + model + "'" +
                          where + ". " + interface.how_to_get);
 }

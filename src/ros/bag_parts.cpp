@@ -22,6 +22,7 @@
 #include "evolin_ros/dataset/annotation_folder.h"
 #include "evolin_ros/dataset/camera_file.h"
 #include "evolin_ros/dataset/evolin_writer.h"
+#include "image_bytes.h"
 #include "pose_source.h"
 #include "topics.h"
 
@@ -103,6 +104,11 @@ class BagParts : public PartReader {
   }
 
   std::size_t images() const override { return topics_.images; }
+
+  Needs offers() const override {
+    return {!topics_.depth.empty(), camera_ || !topics_.camera_info.empty(),
+            tf_ || !topics_.pose.empty()};
+  }
 
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes = notes_;
@@ -187,10 +193,13 @@ class BagParts : public PartReader {
         part.frame.stamp = shell::fromRos(header.stamp);
         part.frame.image = decode(*compressed);
       } else {
-        const auto image = message.read<sensor_msgs::Image>();
+        const auto image = message.read<shell::ImageBytes>();
         header = image->header;
         part.frame.stamp = shell::fromRos(header.stamp);
-        part.frame = shell::toFrame(image);
+        part.frame.image = shell::copyPixels(*image);
+        if (part.frame.image.empty()) {
+          part.frame = shell::toFrame(message.read<sensor_msgs::Image>());
+        }
       }
     } catch (const std::exception& error) {
       part.problem =
@@ -216,8 +225,11 @@ class BagParts : public PartReader {
       const auto depth = message.read<sensor_msgs::CompressedImage>();
       take(depth, shell::toDepthMap(*depth, options_.depth_factor));
     } else {
-      const auto depth = message.read<sensor_msgs::Image>();
-      take(depth, shell::toDepthMap(depth, options_.depth_factor));
+      const auto depth = message.read<shell::ImageBytes>();
+      cv::Mat stored = shell::copyDepth(*depth);
+      take(depth, stored.empty()
+                      ? shell::toDepthMap(message.read<sensor_msgs::Image>(), options_.depth_factor)
+                      : DepthMap(std::move(stored), options_.depth_factor));
     }
   }
 

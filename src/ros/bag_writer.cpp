@@ -123,11 +123,14 @@ struct BagWriter::Bag {
   }
 };
 
-BagWriter::BagWriter(const std::filesystem::path& file) : bag_(std::make_unique<Bag>()) {
+BagWriter::BagWriter(const std::filesystem::path& file, BagCompression compression)
+    : bag_(std::make_unique<Bag>()) {
   bag_->file = file.string();
   try {
     bag_->bag->open(bag_->file, rosbag::bagmode::Write);
-    bag_->bag->setCompression(rosbag::compression::LZ4);
+    bag_->bag->setCompression(compression == BagCompression::kLz4
+                                  ? rosbag::compression::LZ4
+                                  : rosbag::compression::Uncompressed);
   } catch (const rosbag::BagException& error) {
     throw Error(bag_->file + ": cannot be written: " + error.what());
   }

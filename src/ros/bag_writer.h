@@ -9,12 +9,16 @@
 
 namespace evolin {
 
-/// LZ4-compressed. Images go out as bgr8 or mono8, depth as 32FC1 metres (NaN: none) at its own
+/// LZ4 is worth its time where pixels repeat themselves; sensor noise hardly gets smaller by it.
+enum class BagCompression { kNone, kLz4 };
+
+/// Images go out as bgr8 or mono8, depth as 32FC1 metres (NaN: none) at its own
 /// stamp, poses as /tf and PoseStamped at the image's stamp, annotated lines with their ids.
 class BagWriter {
  public:
   /// Makes `file`; throws Error naming it when that fails.
-  explicit BagWriter(const std::filesystem::path& file);
+  explicit BagWriter(const std::filesystem::path& file,
+                     BagCompression compression = BagCompression::kLz4);
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;

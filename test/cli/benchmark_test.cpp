@@ -203,19 +203,23 @@ TEST_F(BenchmarkTest, WhatFailsAndWhatIsNotThereIsToldAndKeepsNothingBack) {
       "sequences:\n- {name: broken, path: broken}\n"
       "- {name: room, synthetic: {frames: 3, width: 96, height: 72}}\n"
       "- {name: absent, path: nowhere}\n"
-      "detectors: [lsd, {name: theirs, recorded: 'theirs/{sequence}'}, lsdd]\n"
+      "detectors: [lsd, {name: theirs, recorded: 'theirs/{sequence}'}, lsdd,\n"
+      "  {name: network, plugin: mlsd, parameters: {model: none.onnx}}]\n"
       "settings: [{name: s, metrics: [detection]}]\n");
   const Outcome outcome = run("out");
   EXPECT_EQ(outcome.status, kExitFailed);
   EXPECT_EQ(states("out"),
             (std::map<std::string, std::string>{{"absent--lsd--none--s", "unavailable"},
                                                 {"absent--lsdd--none--s", "unavailable"},
+                                                {"absent--network--none--s", "unavailable"},
                                                 {"absent--theirs--none--s", "unavailable"},
                                                 {"broken--lsd--none--s", "failed"},
                                                 {"broken--lsdd--none--s", "unavailable"},
+                                                {"broken--network--none--s", "unavailable"},
                                                 {"broken--theirs--none--s", "unavailable"},
                                                 {"room--lsd--none--s", "finished"},
                                                 {"room--lsdd--none--s", "unavailable"},
+                                                {"room--network--none--s", "unavailable"},
                                                 {"room--theirs--none--s", "unavailable"}}));
   EXPECT_NE(outcome.out.find("failed  broken--lsd--none--s: detection broken--lsd: "),
             std::string::npos)

@@ -15,6 +15,7 @@
 #include "evolin_ros/evaluation/sequence_run.h"
 #include "plugin_loader.h"
 #include "run_command.h"
+#include "synth_command.h"
 #include "test/cli/outcome.h"
 #include "test/support/drawn_sequence.h"
 #include "test/support/temporary_folder.h"
@@ -84,6 +85,42 @@ TEST_F(RunTest, TheReportDependsNeitherOnThreadsNorOnTheStorage) {
   ASSERT_EQ(run("data.bag", "bag", few).status, kExitDone);
   EXPECT_EQ(figuresOf(report("folder")), figuresOf(report("bag")));
   EXPECT_EQ(report("folder").at("detection"), one.at("detection"));
+}
+
+TEST_F(RunTest, DepthAndPosesReachAnAssociatorFromABagAsFromAFolder) {
+  for (const char* const name : {"room", "room.bag"}) {
+    ASSERT_EQ(test::runCaptured({synthCommand()}, {"synth", "--output", path(name), "--frames", "4",
+                                                   "--size", "160x120"})
+                  .status,
+              kExitDone);
+    for (const char* const associator : {"oracle", "geometric:prediction=pose"}) {
+      const Outcome outcome =
+          test::runCaptured({runCommand()}, {"run", "--input", path(name), "--output", path("out"),
+                                             "--detector", "hough_p", "--associator", associator,
+                                             "--metrics", "association", "--quiet"});
+      ASSERT_EQ(outcome.status, kExitDone) << outcome.err;
+      const nlohmann::json association = report("out").at("association");
+      EXPECT_EQ(association.at("pairs"), 3) << name << " " << associator;
+      EXPECT_GT(association.at("f_score"), 0.9) << name << " " << associator;
+    }
+  }
+}
+
+TEST_F(RunTest, ABagWithoutWhatAnAssociatorNeedsIsRefusedByName) {
+  std::vector<SequenceFrame> frames = test::drawSequence();
+  for (SequenceFrame& frame : frames) {
+    frame.frame.depth = cv::Mat();
+  }
+  writeBag(frames, path("data.bag"));
+  const Outcome outcome = run("data.bag", "out", {"--metrics", "association"});
+  EXPECT_EQ(outcome.status, kExitDone) << "lbd needs none: " << outcome.err;
+  const Outcome refused = test::runCaptured(
+      {runCommand()}, {"run", "--input", path("data.bag"), "--output", path("none"), "--detector",
+                       "hough_p", "--associator", "oracle", "--metrics", "association"});
+  EXPECT_EQ(refused.status, kExitFailed);
+  for (const char* const word : {"data.bag", "a plug-in needs depth", "has no depth"}) {
+    EXPECT_NE(refused.err.find(word), std::string::npos) << refused.err;
+  }
 }
 
 TEST_F(RunTest, TheReportSaysHowItCameAboutAndWhereTheTimeWent) {

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "evolin_ros/dataset/needs.h"
 #include "evolin_ros/dataset/sequence_reader.h"
 #include "evolin_ros/dataset/trajectory.h"
 #include "evolin_ros/evaluation/inputs.h"
@@ -43,6 +44,9 @@ class PartReader {
 
   /// Images to come, as far as it is known beforehand.
   virtual std::size_t images() const = 0;
+
+  /// What its frames can be given, as far as it is known beforehand; completeFrames() asks.
+  virtual Needs offers() const { return {true, true, true}; }
 
   /// What the user must know of the recording; complete once next() has given none.
   virtual std::vector<std::string> notes() const = 0;
