@@ -24,7 +24,8 @@ std::vector<std::string> longNames(const po::options_description& options) {
 }  // namespace
 
 bool parseOptions(const std::string& usage, po::options_description options,
-                  const std::vector<std::string>& arguments, po::variables_map* values) {
+                  const std::vector<std::string>& arguments, po::variables_map* values,
+                  const char* bare) {
   options.add_options()("help,h", "this text");
   // Abbreviations would break scripts as soon as an option with the same beginning comes.
   constexpr int kStyle =
@@ -32,10 +33,13 @@ bool parseOptions(const std::string& usage, po::options_description options,
   po::variables_map own;
   po::variables_map& map = values == nullptr ? own : *values;
   try {
-    const po::positional_options_description no_positional;
+    po::positional_options_description positional;
+    if (bare != nullptr) {
+      positional.add(bare, -1);
+    }
     po::store(po::command_line_parser(arguments)
                   .options(options)
-                  .positional(no_positional)
+                  .positional(positional)
                   .style(kStyle)
                   .run(),
               map);

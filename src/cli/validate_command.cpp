@@ -24,7 +24,7 @@ constexpr const char* kUsage =
     "for which metric: rates, gaps, image sizes, intrinsics, depth, poses, ground truth, and "
     "whether images, depth and poses fit each other or would do so read in another way; each "
     "finding with what to do. Exit status 1 when no metric of lines could be measured.\n\n"
-    "Usage: evolin validate --input BAG|DIR [OPTIONS]";
+    "Usage: evolin validate BAG|DIR [OPTIONS]";
 
 int runValidate(const std::vector<std::string>& arguments) {
   RecordingInput input;
@@ -32,7 +32,7 @@ int runValidate(const std::vector<std::string>& arguments) {
   po::options_description description = input.describe();
   description.add_options()("quiet,q", po::bool_switch(&quiet), "no progress");
   po::variables_map given;
-  if (!parseOptions(kUsage, description, arguments, &given)) {
+  if (!parseOptions(kUsage, description, arguments, &given, "input")) {
     return kExitDone;
   }
   input.check(given);

@@ -19,6 +19,7 @@
 #include "test/cli/outcome.h"
 #include "test/support/drawn_sequence.h"
 #include "test/support/temporary_folder.h"
+#include "validate_command.h"
 
 namespace evolin::cli {
 namespace {
@@ -200,6 +201,17 @@ TEST_F(RunTest, RefusalsNameWhatIsWrong) {
   expectRefusal(run("data.bag", "out", {"--set", "heatmap_buget=3"}), "'heatmap_budget'");
   expectRefusal(run("data.bag", "out", {"--set", "best_lines=0"}), "best_lines");
   expectRefusal(run("data.bag", "out", {"--frame-step", "0"}), "frame");
+}
+
+TEST_F(RunTest, ValidateTakesItsRecordingWithAndWithoutTheOption) {
+  writeBag(test::drawSequence(), folder_.path() / "drawn.bag");
+  const Outcome named =
+      test::runCaptured({validateCommand()}, {"validate", "--input", path("drawn.bag"), "--quiet"});
+  const Outcome bare =
+      test::runCaptured({validateCommand()}, {"validate", path("drawn.bag"), "--quiet"});
+  EXPECT_EQ(bare.status, 0);
+  EXPECT_NE(bare.out.find("detection: can be measured"), std::string::npos) << bare.out;
+  EXPECT_EQ(bare.out, named.out);
 }
 
 TEST_F(RunTest, TimeThatJumpsBackBeginsAPassOfItsOwn) {
