@@ -125,6 +125,7 @@ std::string matrixJson(const BenchmarkMatrix& matrix, const std::vector<CellReco
          {"associator_label",
           associator ? Json(matrix.associators[*associator].label) : Json(nullptr)},
          {"setting", record.setting},
+         {"content_hash", orNull(record.content_hash)},
          {"state", toString(record.state)},
          {"reason", orNull(record.error)}});
   }

@@ -79,7 +79,8 @@ int runAssociate(const std::vector<std::string>& arguments) {
   PluginLoader loader;
   WorkerPool pool(threads);
   FrontEndOptions front_end_options;
-  front_end_options.make_associator = associatorMaker(&loader, choice);
+  Needs needs;
+  front_end_options.make_associator = associatorMaker(&loader, choice, &needs);
   front_end_options.matches_source = methodSource(choice.name, choice.parameters);
   front_end_options.frame_step = options.frame_step;
   front_end_options.associate_ground_truth = options.lines.empty();
@@ -87,10 +88,9 @@ int runAssociate(const std::vector<std::string>& arguments) {
     MethodChoice recorded;
     recorded.name = "recorded";
     recorded.parameters["folder"] = options.lines;
-    front_end_options.make_detector = detectorMaker(&loader, recorded);
+    front_end_options.make_detector = detectorMaker(&loader, recorded, &needs);
     front_end_options.lines_source = options.lines;
   }
-  const Needs needs = front_end_options.make_associator()->needs();
   FrontEnd front_end(front_end_options, &pool);
   const std::unique_ptr<PartReader> reader =
       options.input.open({false, options.lines.empty()}, needs);

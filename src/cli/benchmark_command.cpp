@@ -71,7 +71,9 @@ po::options_description describe(BenchmarkOptions* options) {
       "find the lines of one detector on one sequence alone (SEQUENCE--DETECTOR)");
   add("collect", po::bool_switch(&options->collect),
       "run nothing; matrix.json and the summary from the cells that are there");
-  add("force", po::bool_switch(&options->force), "run finished cells again");
+  add("force", po::bool_switch(&options->force),
+      "detect and run again what is finished; with --cell that cell alone, on the lines that are "
+      "there");
   add("quiet,q", po::bool_switch(&options->quiet), "no progress");
   return description;
 }
@@ -88,6 +90,11 @@ void check(BenchmarkOptions* options) {
                    int(!options->detections.empty());
   if (ways > 1) {
     throw UsageError("expected at most one of --list, --collect, --cell and --detection");
+  }
+  if (options->force && (options->list || options->collect || !options->detections.empty())) {
+    throw UsageError(
+        "--force goes with a whole benchmark or with --cell, not with --list, "
+        "--collect or --detection");
   }
   if (options->output.empty() && !options->list) {
     throw UsageError("the option '--output' is required but missing");
@@ -114,6 +121,9 @@ class Benchmark {
       removeLeftovers();
     }
     look();
+    if (alone && options_.force) {
+      forgetDetections();
+    }
     if (!options_.detections.empty()) {
       return runDetectionsAlone();
     }
@@ -158,6 +168,13 @@ class Benchmark {
       for (const fs::path& leftover : leftovers) {
         fs::remove_all(leftover);
       }
+    }
+  }
+
+  /// Those of the matrix that can be made again here; nobody else works here.
+  void forgetDetections() const {
+    for (const PlannedDetection& detection : plan_.detections) {
+      fs::remove_all(detectionFolder(root_, detection.id));
     }
   }
 

@@ -27,8 +27,6 @@ std::string cellsJson(const BenchmarkContext& context, const std::vector<CellRec
   const std::vector<PlannedDetection>& detections = context.plan.detections;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const PlannedCell& cell = context.plan.cells[i];
-    json["cells"][i]["content_hash"] =
-        cell.content_hash.empty() ? Json(nullptr) : Json(cell.content_hash);
     json["cells"][i]["detection"] =
         cell.detection ? Json(detections[*cell.detection].id) : Json(nullptr);
   }

@@ -10,6 +10,9 @@
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/base/version.h"
 #include "evolin_ros/benchmarking/digest_cache.h"
+#include "evolin_ros/dataset/camera_file.h"
+#include "evolin_ros/inference/model_catalogue.h"
+#include "evolin_ros/inference/model_files.h"
 #include "options.h"
 #include "package_files.h"
 #include "plan_json.h"
@@ -87,7 +90,7 @@ class Planner {
       if (is_path) {
         places.emplace_back(value);
       } else if (name == "camera") {
-        places.push_back(fs::exists(value) ? fs::path(value) : cameraFolder() / (value + ".yaml"));
+        places.push_back(cameraFileOf(value, cameraFolder()));
       }
       options[name] = is_path || name == "camera" ? "" : value;
     }
@@ -210,7 +213,8 @@ class Planner {
       return {"",
               {{"plugin", method.plugin},
                {"parameters", toJson(method.parameters)},
-               {"library", digests_.digestOf(library)}}};
+               {"library", digests_.digestOf(library)},
+               {"networks", networksOf(method)}}};
     } catch (const ConfigError& error) {
       throw Error(method.place + ": " + error.what());
     } catch (const Error& error) {
@@ -218,10 +222,37 @@ class Planner {
     }
   }
 
+  /// Digests of the network files that the method may run: the one that its parameters name, else
+  /// all that the catalogue has for it, as its default is among them. Those of them that are here.
+  Json networksOf(const BenchmarkMethod& method) {
+    std::vector<std::string> files;
+    const YAML::Node model = method.parameters["model"];
+    if (model.IsDefined() && model.IsScalar()) {
+      files.push_back(model.Scalar());
+    } else {
+      if (!catalogue_) {
+        catalogue_ = readModelCatalogue(modelCatalogueFile());
+      }
+      for (const ModelEntry& entry : *catalogue_) {
+        if (entry.method == method.plugin) {
+          files.push_back(entry.file);
+        }
+      }
+    }
+    Json digests = Json::array();
+    for (const std::string& name : files) {
+      if (const std::optional<fs::path> file = findModelFile(name)) {
+        digests.push_back(digests_.digestOf(*file));
+      }
+    }
+    return digests;
+  }
+
   const BenchmarkMatrix& matrix_;
   fs::path root_;
   DigestCache digests_;
   std::unique_ptr<PluginLoader> loader_;
+  std::optional<std::vector<ModelEntry>> catalogue_;
   std::map<std::string, Method> detectors_;
   std::map<std::string, Method> associators_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> detections_;

@@ -3,7 +3,6 @@
 
 #include <poll.h>
 
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -13,6 +12,7 @@
 
 #include "child_process.h"
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/base/stop_watch.h"
 #include "evolin_ros/benchmarking/task_queue.h"
 #include "interrupt.h"
 
@@ -84,7 +84,7 @@ class Runner {
   struct Child {
     explicit Child(const std::function<std::string()>& work) : process(work) {}
     ChildProcess process;
-    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+    StopWatch watch;
   };
 
   std::size_t addOnce(Kind kind, std::size_t place, std::optional<std::size_t> after) {
@@ -139,16 +139,15 @@ class Runner {
         continue;
       }
       const ChildResult result = child->second->process.result();
-      const std::chrono::duration<double> time =
-          std::chrono::steady_clock::now() - child->second->begin;
+      const double seconds = child->second->watch.seconds();
       const std::size_t task = child->first;
       child = children_.erase(child);
       if (result.done) {
         queue_.finish(task);
-        tell(works_[task], "finished", time.count(), "");
+        tell(works_[task], "finished", seconds, "");
         note(works_[task]);
       } else if (!guard.interrupted()) {
-        fail(task, result.text, time.count());
+        fail(task, result.text, seconds);
       }
     }
   }
@@ -160,6 +159,7 @@ class Runner {
     tell(works_[task], "FAILED", seconds, ": " + why);
     recordFailure(works_[task], why);
     for (const std::size_t lost : queue_.fail(task)) {
+      ++ended_;  // its failure is told with the one behind which it waited
       recordFailure(works_[lost], nameOf(works_[task]) + ": " + why);
     }
   }

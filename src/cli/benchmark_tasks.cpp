@@ -1,16 +1,15 @@
 // Detection by the plug-in, then cells that play its lines.
 #include "benchmark_tasks.h"
 
-#include <chrono>
 #include <fstream>
 #include <opencv2/core/utility.hpp>
 #include <sstream>
 
 #include "command.h"
 #include "evolin_ros/base/atomic_file.h"
+#include "evolin_ros/base/stop_watch.h"
 #include "evolin_ros/base/version.h"
 #include "evolin_ros/benchmarking/cell_record.h"
-#include "evolin_ros/evaluation/method_source.h"
 #include "file_lock.h"
 #include "interrupt.h"
 #include "output_folder.h"
@@ -26,16 +25,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 /// Hidden beside the folder that it guards.
 fs::path lockOf(const fs::path& folder) {
@@ -57,24 +46,23 @@ MethodChoice choiceOf(const BenchmarkMethod& method) {
 
 void writeLines(const BenchmarkContext& context, const PlannedDetection& detection,
                 const fs::path& folder) {
-  const Stopwatch watch;
-  const MethodChoice choice = choiceOf(context.matrix.detectors[detection.detector]);
+  const StopWatch watch;
+  RunRequest request;
+  request.detector = choiceOf(context.matrix.detectors[detection.detector]);
+  const MethodChoice& choice = *request.detector;
   RecordingInput input;
   setInput(context.matrix.sequences[detection.sequence], context.root, &input);
   PluginLoader loader;
   WorkerPool pool(1);
-  FrontEndOptions options;
-  options.make_detector = detectorMaker(&loader, choice);
-  options.lines_source = methodSource(choice.name, choice.parameters);
-  const Needs needs = loader.loadDetector(choice.name)->needs();
-  FrontEnd front_end(options, &pool);
-  const std::unique_ptr<PartReader> reader = input.open({false, false}, needs);
+  const ChosenFrontEnd chosen = chooseFrontEnd(request, 1, &loader);
+  FrontEnd front_end(chosen.options, &pool);
+  const std::unique_ptr<PartReader> reader = input.open({false, false}, chosen.needs);
   LineRecorder recorder(folder, front_end.givesScores());
   if (!record(reader.get(), &front_end, &recorder, true)) {
     throw Interrupted("interrupted");
   }
   if (recorder.frames() == 0) {
-    throw Error(input.names() + ": no image has lines of " + options.lines_source +
+    throw Error(input.names() + ": no image has lines of " + chosen.options.lines_source +
                 (recorder.notes().empty() ? "" : "; " + recorder.notes().front()));
   }
   recorder.finish();
@@ -177,7 +165,7 @@ void makeDetection(const BenchmarkContext& context, std::size_t detection) {
 }
 
 void runCell(const BenchmarkContext& context, std::size_t cell) {
-  const Stopwatch watch;
+  const StopWatch watch;
   const InterruptGuard guard;
   cv::setNumThreads(1);
   PluginLoader loader;

@@ -70,11 +70,11 @@ int runDetect(const std::vector<std::string>& arguments) {
   PluginLoader loader;
   WorkerPool pool(threads);
   FrontEndOptions front_end_options;
-  front_end_options.make_detector = detectorMaker(&loader, choice);
+  Needs needs;
+  front_end_options.make_detector = detectorMaker(&loader, choice, &needs);
   front_end_options.selection = options.selection.selection;
   front_end_options.lines_source =
       methodSource(choice.name, choice.parameters, options.selection.selection);
-  const Needs needs = loader.loadDetector(choice.name)->needs();
   FrontEnd front_end(front_end_options, &pool);
   const std::unique_ptr<PartReader> reader = options.input.open({false, false}, needs);
 

@@ -99,13 +99,8 @@ void FramePictures::judge(const Waiting& waiting, EvaluatedFrame* frame) {
     return;
   }
   frame->ground_truth = waiting.ground_truth->lines;
-  Classification counts;
-  counts.true_positives = frame->verdicts.count(LineVerdict::kTruePositive);
-  counts.predicted = counts.true_positives + frame->verdicts.count(LineVerdict::kFalsePositive);
-  counts.ground_truth = frame->verdicts.found.size();
-  sums_.true_positives += counts.true_positives;
-  sums_.predicted += counts.predicted;
-  sums_.ground_truth += counts.ground_truth;
+  const Classification counts = frame->verdicts.counts();
+  sums_ += counts;
   frame->sections = {sectionOf("This frame, %", counts), sectionOf("So far, %", sums_)};
 }
 

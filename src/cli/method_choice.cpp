@@ -25,25 +25,31 @@ std::vector<std::string> splitOutsideBrackets(const std::string& text) {
   return pieces;
 }
 
-std::string joined(const std::vector<PluginInfo>& plugins) {
+/// Those that run here, without the one that turned out not to.
+std::string others(const std::vector<PluginInfo>& plugins, const std::string& but) {
   std::string names;
   for (const PluginInfo& plugin : plugins) {
-    if (plugin.why_unavailable.empty()) {
+    if (plugin.why_unavailable.empty() && plugin.name != but) {
       names += (names.empty() ? "" : ", ") + plugin.name;
     }
   }
   return names;
 }
 
-/// `make` gives a configured instance, `list` all plug-ins of the kind.
+/// `make` gives a configured instance of `name`, `list` all plug-ins of the kind.
 template <class Plugin, class Make, class List>
-std::function<std::shared_ptr<Plugin>()> makerOf(const Make& make, const List& list) {
+std::function<std::shared_ptr<Plugin>()> makerOf(const std::string& name, const Make& make,
+                                                 const List& list, Needs* needs) {
   auto first = std::make_shared<std::shared_ptr<Plugin>>();
   try {
     *first = make();
   } catch (const UnavailableError& error) {
-    throw UnavailableError(std::string(error.what()) + "; available: " + joined(list()));
+    throw UnavailableError(std::string(error.what()) + "; available: " + others(list(), name));
   }
+  const Needs more = (*first)->needs();
+  needs->depth = needs->depth || more.depth;
+  needs->camera = needs->camera || more.camera;
+  needs->pose = needs->pose || more.pose;
   return [make, first] { return *first ? std::exchange(*first, nullptr) : make(); };
 }
 
@@ -90,25 +96,29 @@ MethodChoice parseMethod(const std::string& option, const std::string& text,
 }
 
 std::function<std::shared_ptr<LineDetector>()> detectorMaker(PluginLoader* loader,
-                                                             const MethodChoice& choice) {
+                                                             const MethodChoice& choice,
+                                                             Needs* needs) {
   return makerOf<LineDetector>(
+      choice.name,
       [loader, choice] {
         const std::shared_ptr<LineDetector> detector = loader->loadDetector(choice.name);
         detector->configure(choice.parameters);
         return detector;
       },
-      [loader] { return loader->listDetectors(); });
+      [loader] { return loader->listDetectors(); }, needs);
 }
 
 std::function<std::shared_ptr<LineAssociator>()> associatorMaker(PluginLoader* loader,
-                                                                 const MethodChoice& choice) {
+                                                                 const MethodChoice& choice,
+                                                                 Needs* needs) {
   return makerOf<LineAssociator>(
+      choice.name,
       [loader, choice] {
         const std::shared_ptr<LineAssociator> associator = loader->loadAssociator(choice.name);
         associator->configure(choice.parameters);
         return associator;
       },
-      [loader] { return loader->listAssociators(); });
+      [loader] { return loader->listAssociators(); }, needs);
 }
 
 }  // namespace evolin::cli

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "evolin_ros/dataset/needs.h"
 #include "plugin_loader.h"
 
 namespace evolin::cli {
@@ -27,12 +28,14 @@ MethodChoice parseMethod(const std::string& option, const std::string& text,
 void parseAssignments(const std::string& option, const std::string& text, YAML::Node* parameters);
 
 /// Makers of configured instances; `loader` outlives them. The first instance is made at once, so
-/// that a wrong name or parameter is told before anything is read, and is the first given out.
-/// Throw as PluginLoader and configure(); where this build lacks the method the message names those
-/// that run.
+/// that a wrong name or parameter is told before anything is read, and is the first given out; what
+/// it needs, which may depend on its parameters, is added to `needs`. Throw as PluginLoader and
+/// configure(); where this build lacks the method the message names those that run.
 std::function<std::shared_ptr<LineDetector>()> detectorMaker(PluginLoader* loader,
-                                                             const MethodChoice& choice);
+                                                             const MethodChoice& choice,
+                                                             Needs* needs);
 std::function<std::shared_ptr<LineAssociator>()> associatorMaker(PluginLoader* loader,
-                                                                 const MethodChoice& choice);
+                                                                 const MethodChoice& choice,
+                                                                 Needs* needs);
 
 }  // namespace evolin::cli

@@ -8,6 +8,8 @@
 
 #include "command.h"
 #include "evolin_ros/base/sha256.h"
+#include "evolin_ros/base/text.h"
+#include "evolin_ros/dataset/camera_file.h"
 #include "evolin_ros/evaluation/complete_frames.h"
 #include "package_files.h"
 
@@ -109,6 +111,38 @@ void RecordingInput::check(const po::variables_map& given) {
   if (!camera_.empty()) {
     folder_.camera_folder = bag_.camera_folder = cameraFolder();
   }
+  keepGiven(given);
+}
+
+void RecordingInput::keepGiven(const po::variables_map& given) {
+  const auto textOf = [](const po::variable_value& value) -> std::string {
+    if (const auto* number = boost::any_cast<double>(&value.value())) {
+      return formatDouble(*number);
+    }
+    if (const auto* number = boost::any_cast<int>(&value.value())) {
+      return std::to_string(*number);
+    }
+    const auto* text = boost::any_cast<std::string>(&value.value());
+    return text == nullptr ? "" : *text;
+  };
+  const po::options_description description = describe();
+  for (const auto& option : description.options()) {
+    const std::string& name = option->long_name();
+    if (name != "input" && given.count(name) != 0 && !given[name].defaulted()) {
+      given_[name] = textOf(given[name]);
+    }
+  }
+}
+
+std::map<std::string, std::string> RecordingInput::options() const {
+  std::map<std::string, std::string> options = given_;
+  for (auto& [name, value] : options) {
+    if (name == "ground-truth" || name == "stamps" ||
+        (name == "camera" && cameraFileOf(value, cameraFolder()) == value)) {
+      value = std::filesystem::absolute(value).string();
+    }
+  }
+  return options;
 }
 
 std::unique_ptr<PartReader> RecordingInput::open(const WantedParts& wanted,

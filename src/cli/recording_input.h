@@ -3,6 +3,7 @@
 
 #include <boost/program_options/options_description.hpp>
 #include <boost/program_options/variables_map.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ class RecordingInput {
   /// deliver to them, else as openFolderParts() and openBagParts().
   std::unique_ptr<PartReader> open(const WantedParts& wanted, const Needs& needs) const;
 
+  /// What else was given of these options, by long name. Paths are absolute, the value of a switch
+  /// is empty. Throws Error for a camera that is neither a preset nor a file.
+  std::map<std::string, std::string> options() const;
+
   /// "a.bag, b.bag".
   std::string names() const;
 
@@ -33,8 +38,10 @@ class RecordingInput {
 
  private:
   bool isFolder() const;
+  void keepGiven(const boost::program_options::variables_map& given);
 
   std::vector<std::string> inputs_;
+  std::map<std::string, std::string> given_;  ///< as it was given
   std::string layout_ = "auto";
   std::string camera_;
   std::string ground_truth_;

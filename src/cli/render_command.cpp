@@ -2,22 +2,22 @@
 #include "render_command.h"
 
 #include <algorithm>
+#include <boost/program_options/cmdline.hpp>
 #include <boost/program_options/value_semantic.hpp>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 
-#include "evolin_ros/base/atomic_file.h"
 #include "evolin_ros/base/text.h"
-#include "evolin_ros/evaluation/method_source.h"
+#include "evolin_ros/dataset/image_file.h"
 #include "frame_pictures.h"
 #include "method_choice.h"
 #include "options.h"
 #include "recorded_folders.h"
 #include "recording_input.h"
+#include "sequence_job.h"
 #include "thread_option.h"
 #include "video_file.h"
 
@@ -32,8 +32,8 @@ namespace {
 constexpr const char* kUsage =
     "Pictures of a run that 'evolin run' has made: found lines blue, false ones orange, missed "
     "ones white and dashed, with legend and figures in the margin; or matched lines of two frames "
-    "side by side. Detector, associator and their parameters are those of the run's report and "
-    "work once more on its recording (--input where that has moved).\n\n"
+    "side by side. Detector, associator, their parameters and the options of the input are those "
+    "of the run's report and work once more on its recording (--input where that has moved).\n\n"
     "Usage: evolin render --run DIR --output DIR|FILE.mp4|FILE.gif [OPTIONS]";
 
 constexpr const char* kMarker = "render.txt";
@@ -90,33 +90,62 @@ Json readProvenance(const fs::path& run) {
   return provenance;
 }
 
-/// The words behind `--name` and `-letter` among the arguments; none where it is not given.
-std::optional<std::string> valueOf(const std::vector<std::string>& arguments,
-                                   const std::string& name, const std::string& letter) {
+bool isGiven(const std::string& argument, const std::string& name, const std::string& letter) {
+  return argument == name || argument.rfind(name + "=", 0) == 0 ||
+         (!letter.empty() && argument.rfind(letter, 0) == 0);
+}
+
+/// The folder behind --run among arguments that are not read yet.
+std::optional<std::string> runOf(const std::vector<std::string>& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if ((arguments[i] == name || arguments[i] == letter) && i + 1 < arguments.size()) {
-      return arguments[i + 1];
+    const std::string& argument = arguments[i];
+    if (!isGiven(argument, "--run", "-r")) {
+      continue;
     }
-    if (arguments[i].rfind(name + "=", 0) == 0) {
-      return arguments[i].substr(name.size() + 1);
+    if (argument == "--run" || argument == "-r") {
+      return i + 1 < arguments.size() ? std::make_optional(arguments[i + 1]) : std::nullopt;
     }
+    return argument.substr(argument[1] == '-' ? 6 : 2);
   }
   return std::nullopt;
 }
 
-/// With the recording that the run's report names, where no --input is given.
+/// With what the run's report says of the recording and of the options that went with it, each
+/// where it is not given anew.
 std::vector<std::string> withInput(std::vector<std::string> arguments) {
-  const std::optional<std::string> run = valueOf(arguments, "--run", "-r");
-  if (!run || valueOf(arguments, "--input", "-i")) {
+  const std::optional<std::string> run = runOf(arguments);
+  if (!run) {
     return arguments;
   }
-  const Json input = readProvenance(*run).value("input", Json::object());
+  const Json provenance = readProvenance(*run);
+  std::vector<std::string> more;
+  const auto add = [&](const po::option_description& option, const std::string& value) {
+    const std::string name = "--" + option.long_name();
+    const std::string letter =
+        option.canonical_display_name(po::command_line_style::allow_dash_for_short);
+    const auto given = [&](const std::string& argument) {
+      return isGiven(argument, name, letter.size() == 2 ? letter : "");
+    };
+    if (std::none_of(arguments.begin(), arguments.end(), given)) {
+      more.push_back(value.empty() ? name : name + "=" + value);
+    }
+  };
+  RecordingInput known;
+  const po::options_description options = known.describe();
+  const Json input = provenance.value("input", Json::object());
   if (input.contains("folder")) {
-    arguments.insert(arguments.end(), {"--input", input["folder"].get<std::string>()});
+    add(options.find("input", false), input["folder"].get<std::string>());
   }
   for (const Json& bag : input.value("bags", Json::array())) {
-    arguments.insert(arguments.end(), {"--input", bag.at("bag").get<std::string>()});
+    add(options.find("input", false), bag.at("bag").get<std::string>());
   }
+  const Json more_options = provenance.value("input_options", Json::object());
+  for (const auto& [name, value] : more_options.items()) {
+    if (const po::option_description* option = options.find_nothrow(name, false)) {
+      add(*option, value.get<std::string>());
+    }
+  }
+  arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
 
@@ -139,34 +168,53 @@ MethodChoice choiceOf(const Json& parameters, const std::string& kind) {
   return choice;
 }
 
-FrontEndOptions frontEndOf(const Json& parameters, bool with_matches, PluginLoader* loader,
-                           Needs* needs) {
-  FrontEndOptions options;
-  const MethodChoice detector = choiceOf(parameters, "detector");
-  options.make_detector = detectorMaker(loader, detector);
-  LineSelection& selection = options.selection;
+/// The recorded results that a run played; "" where there were none, or they are gone and the
+/// method itself has to do it again.
+std::string playedFolder(const Json& parameters, const std::string& key) {
+  const std::string folder = parameters.value(key, "");
+  return fs::is_directory(folder) ? folder : "";
+}
+
+/// The run's methods, in the words of its report.
+RunRequest requestOf(const Json& parameters, bool with_matches) {
+  RunRequest request;
+  request.detector = choiceOf(parameters, "detector");
+  request.lines_name = parameters.value("source", "");
+  request.lines_folder = playedFolder(parameters, "lines_folder");
+  LineSelection& selection = request.selection;
   if (const Json score = parameters.value("score_threshold", Json()); score.is_number()) {
     selection.score_threshold = score.get<double>();
   }
   selection.min_length = parameters.value("min_length", selection.min_length);
   selection.max_lines = parameters.value("max_lines", selection.max_lines);
-  options.lines_source = methodSource(detector.name, detector.parameters, selection);
-  *needs = loader->loadDetector(detector.name)->needs();
-  if (!with_matches) {
-    return options;
+  if (with_matches) {
+    if (!parameters.value("associator", Json()).is_string()) {
+      throw Error("--picture matches: the run had no associator");
+    }
+    request.associator = choiceOf(parameters, "associator");
+    request.matches_folder = playedFolder(parameters, "matches_folder");
+    request.associate_ground_truth = parameters.value("associate", "ground-truth") != "detected";
   }
-  if (!parameters.value("associator", Json()).is_string()) {
-    throw Error("--picture matches: the run had no associator");
+  return request;
+}
+
+ChosenFrontEnd frontEndOf(const Json& parameters, bool with_matches, PluginLoader* loader) {
+  const RunRequest request = requestOf(parameters, with_matches);
+  try {
+    return chooseFrontEnd(request, parameters.value("frame_step", 1), loader);
+  } catch (const Error& error) {
+    std::string gone;
+    for (const char* key : {"lines_folder", "matches_folder"}) {
+      const std::string folder = parameters.value(key, "");
+      gone += folder.empty() || fs::is_directory(folder)
+                  ? ""
+                  : "; the run played " + folder + ", which is not there any more";
+    }
+    if (gone.empty()) {
+      throw;
+    }
+    throw Error(error.what() + gone);
   }
-  const MethodChoice associator = choiceOf(parameters, "associator");
-  options.make_associator = associatorMaker(loader, associator);
-  options.matches_source = methodSource(associator.name, associator.parameters);
-  options.associate_ground_truth = parameters.value("associate", "ground-truth") != "detected";
-  options.frame_step = parameters.value("frame_step", 1);
-  const Needs more = options.make_associator()->needs();  // configured: they may depend on it
-  needs->depth = needs->depth || more.depth;
-  needs->pose = needs->pose || more.pose;
-  return options;
 }
 
 /// Where pictures go: a folder or a video.
@@ -185,9 +233,7 @@ class Album {
       video_->add(picture);
       return;
     }
-    std::vector<unsigned char> bytes;
-    cv::imencode(".png", picture, bytes);
-    writeFileAtomically(folder_->path() / (name + ".png"), std::string(bytes.begin(), bytes.end()));
+    writeImage(folder_->path() / (name + ".png"), picture);
   }
 
   void finish(const RenderOptions& options, std::size_t pictures,
@@ -238,17 +284,16 @@ int runRender(const std::vector<std::string>& arguments) {
   cv::setNumThreads(1);  // images go to threads as wholes
   PluginLoader loader;
   WorkerPool pool(threads);
-  Needs needs;
-  const FrontEndOptions front_end_options = frontEndOf(parameters, matches, &loader, &needs);
-  FrontEnd front_end(front_end_options, &pool);
-  const std::unique_ptr<PartReader> reader = options.input.open({false, true}, needs);
+  const ChosenFrontEnd chosen = frontEndOf(parameters, matches, &loader);
+  FrontEnd front_end(chosen.options, &pool);
+  const std::unique_ptr<PartReader> reader = options.input.open({false, true}, chosen.needs);
 
   Album album(options);
   const TakePicture take = [&album](const std::string& name, const cv::Mat& picture) {
     album.add(name, picture);
   };
   if (matches) {
-    MatchPictures sink(static_cast<std::size_t>(front_end_options.frame_step), take);
+    MatchPictures sink(static_cast<std::size_t>(chosen.options.frame_step), take);
     const bool complete = record(reader.get(), &front_end, &sink, options.quiet);
     album.finish(options, sink.pictures(), sink.notes(), complete);
     return kExitDone;

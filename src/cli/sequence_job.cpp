@@ -32,6 +32,10 @@ MethodChoice playing(const MethodChoice& method, const std::string& folder) {
   return player;
 }
 
+std::string absolute(const std::string& folder) {
+  return folder.empty() ? folder : std::filesystem::absolute(folder).string();
+}
+
 }  // namespace
 
 EvaluationSettings readEvaluation(const YAML::Node& evaluation, const std::string& owner) {
@@ -41,53 +45,51 @@ EvaluationSettings readEvaluation(const YAML::Node& evaluation, const std::strin
   return settings;
 }
 
+ChosenFrontEnd chooseFrontEnd(const RunRequest& request, int frame_step, PluginLoader* loader) {
+  ChosenFrontEnd chosen;
+  FrontEndOptions& options = chosen.options;
+  if (request.detector) {
+    const MethodChoice& detector = *request.detector;
+    options.make_detector =
+        detectorMaker(loader, playing(detector, request.lines_folder), &chosen.needs);
+    options.selection = request.selection;
+    options.lines_source =
+        methodSource(request.lines_name.empty() ? detector.name : request.lines_name,
+                     detector.parameters, request.selection);
+  }
+  if (request.associator) {
+    const MethodChoice& associator = *request.associator;
+    options.make_associator =
+        associatorMaker(loader, playing(associator, request.matches_folder), &chosen.needs);
+    options.matches_source = methodSource(associator.name, associator.parameters);
+    options.associate_ground_truth = request.associate_ground_truth;
+    options.frame_step = frame_step;
+  }
+  return chosen;
+}
+
 SequenceJob::SequenceJob(RunRequest request, const RecordingInput& input, PluginLoader* loader)
     : request_(std::move(request)), input_(input) {
   options_.threads = request_.threads;
   options_.evaluation = readEvaluation(request_.evaluation, "evaluation");
-  Needs needs;
-  chooseDetector(loader, &needs);
-  chooseAssociator(loader, &needs);
-  reader_ = input_.open(wantedParts(options_.evaluation.pass.families), needs);
-}
-
-void SequenceJob::chooseDetector(PluginLoader* loader, Needs* needs) {
-  if (!request_.detector) {
-    return;
-  }
-  const MethodChoice& detector = *request_.detector;
-  FrontEndOptions& front_end = options_.front_end;
-  const MethodChoice used = playing(detector, request_.lines_folder);
-  front_end.make_detector = detectorMaker(loader, used);
-  front_end.selection = request_.selection;
-  front_end.lines_source =
-      methodSource(request_.lines_name.empty() ? detector.name : request_.lines_name,
-                   detector.parameters, front_end.selection);
-  *needs = loader->loadDetector(used.name)->needs();
-}
-
-void SequenceJob::chooseAssociator(PluginLoader* loader, Needs* needs) {
-  if (!request_.associator) {
-    return;
-  }
-  const MethodChoice& associator = *request_.associator;
-  FrontEndOptions& front_end = options_.front_end;
-  const MethodChoice used = playing(associator, request_.matches_folder);
-  front_end.make_associator = associatorMaker(loader, used);
-  front_end.matches_source = methodSource(associator.name, associator.parameters);
-  front_end.associate_ground_truth = request_.associate_ground_truth;
-  front_end.frame_step = options_.evaluation.pass.frame_step;
-  const Needs more = front_end.make_associator()->needs();  // configured: they may depend on it
-  needs->depth = needs->depth || more.depth;
-  needs->pose = needs->pose || more.pose;
+  ChosenFrontEnd chosen = chooseFrontEnd(request_, options_.evaluation.pass.frame_step, loader);
+  options_.front_end = std::move(chosen.options);
+  reader_ = input_.open(wantedParts(options_.evaluation.pass.families), chosen.needs);
 }
 
 /// What was asked for, in the words of the parameters.
 std::string SequenceJob::parametersText() const {
   Json parameters = {{"detector", nullptr}};
+  const auto tell = [&parameters](const char* name, const std::string& value) {
+    if (!value.empty()) {
+      parameters[name] = value;
+    }
+  };
   if (request_.detector) {
     parameters["detector"] = request_.detector->name;
     parameters["detector_parameters"] = toJson(request_.detector->parameters);
+    tell("source", request_.lines_name);
+    tell("lines_folder", absolute(request_.lines_folder));
   }
   const LineSelection& selection = request_.selection;
   if (!selection.keepsAll()) {
@@ -100,6 +102,7 @@ std::string SequenceJob::parametersText() const {
     parameters["associator"] = request_.associator->name;
     parameters["associator_parameters"] = toJson(request_.associator->parameters);
     parameters["associate"] = request_.associate_ground_truth ? "ground-truth" : "detected";
+    tell("matches_folder", absolute(request_.matches_folder));
   }
   parameters.update(toJson(request_.evaluation));
   return parameters.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -113,6 +116,8 @@ RunOutcome SequenceJob::run(const std::filesystem::path& folder,
   options_.observer = &worst_frames;
   SequenceRunResult result = runSequence(options_, reader_.get(), progress, interrupted);
   const std::string parameters = parametersText();
+  const std::string input_options =
+      Json(input_.options()).dump(-1, ' ', false, Json::error_handler_t::replace);
   for (Report& report : result.reports) {
     const bool newest = report.pass == result.reports.back().pass;
     if (newest) {
@@ -121,6 +126,7 @@ RunOutcome SequenceJob::run(const std::filesystem::path& folder,
     addMachine(&report);
     report.provenance["parameters"] = parameters;
     report.provenance["input"] = reader_->provenance();
+    report.provenance["input_options"] = input_options;
     report.provenance["sha256"] = request_.hashes;
     writeReport(report, newest ? folder : folder / ("pass_" + std::to_string(report.pass)));
   }

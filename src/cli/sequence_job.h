@@ -42,6 +42,16 @@ struct RunOutcome {
 /// The settings of `evaluation`; `owner` stands at the head of the ConfigError.
 EvaluationSettings readEvaluation(const YAML::Node& evaluation, const std::string& owner);
 
+/// A request's methods, and what they want of the frames.
+struct ChosenFrontEnd {
+  FrontEndOptions options;
+  Needs needs;
+};
+
+/// `frame_step` is that of the evaluation; `loader` outlives the answer. Throws as the makers of
+/// method_choice.h.
+ChosenFrontEnd chooseFrontEnd(const RunRequest& request, int frame_step, PluginLoader* loader);
+
 class SequenceJob {
  public:
   /// Opens everything, so that wrong parameters and absent methods are told before anything is
@@ -59,8 +69,6 @@ class SequenceJob {
                  const std::function<bool()>& interrupted);
 
  private:
-  void chooseDetector(PluginLoader* loader, Needs* needs);
-  void chooseAssociator(PluginLoader* loader, Needs* needs);
   std::string parametersText() const;
 
   RunRequest request_;

@@ -8,6 +8,7 @@
 #include "evolin_ros/base/atomic_file.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
+#include "evolin_ros/dataset/image_file.h"
 #include "evolin_ros/drawing/evaluation_view.h"
 
 namespace evolin::cli {
@@ -21,14 +22,6 @@ constexpr int kJpegQuality = 85;
 
 double smallest(const std::vector<double>& thresholds) {
   return thresholds.empty() ? 5 : *std::min_element(thresholds.begin(), thresholds.end());
-}
-
-Classification countsOf(const LineVerdicts& verdicts) {
-  Classification counts;
-  counts.true_positives = verdicts.count(LineVerdict::kTruePositive);
-  counts.predicted = counts.true_positives + verdicts.count(LineVerdict::kFalsePositive);
-  counts.ground_truth = verdicts.found.size();
-  return counts;
 }
 
 }  // namespace
@@ -80,7 +73,7 @@ void WorstFrames::judge(Kept frame) {
   } catch (const Error&) {
     return;  // the evaluation counts it and says why
   }
-  frame.f_score = countsOf(frame.verdicts).fScore();
+  frame.f_score = frame.verdicts.counts().fScore();
   const auto place =
       std::upper_bound(worst_.begin(), worst_.end(), frame, [](const Kept& a, const Kept& b) {
         return std::make_pair(a.f_score, a.lines.stamp) < std::make_pair(b.f_score, b.lines.stamp);
@@ -112,12 +105,7 @@ void WorstFrames::draw(const Kept& kept, const std::filesystem::path& file) cons
   ViewOptions options;
   options.margin = false;
   options.scale = std::clamp(kLargestWidth / std::max(kept.frame.image.cols, 1), 0.25, 1.0);
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".jpg", drawEvaluatedFrame(picture, options), bytes,
-                    {cv::IMWRITE_JPEG_QUALITY, kJpegQuality})) {
-    throw Error(file.string() + ": the picture cannot be encoded");
-  }
-  writeFileAtomically(file, std::string(bytes.begin(), bytes.end()));
+  writeImage(file, drawEvaluatedFrame(picture, options), {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
 }
 
 void WorstFrames::write(const std::filesystem::path& folder) const {

@@ -266,18 +266,17 @@ std::vector<std::string> listCameraPresets(const std::filesystem::path& folder) 
   return names;
 }
 
-Camera loadCamera(const std::string& name_or_file, const std::filesystem::path& folder) {
+std::filesystem::path cameraFileOf(const std::string& name_or_file,
+                                   const std::filesystem::path& folder) {
   const std::filesystem::path path(name_or_file);
   const std::filesystem::path extension = path.extension();
-  if (extension == ".txt") {
-    return readCalibrationMatrix(path);
+  if (extension == ".yaml" || extension == ".yml" || extension == ".txt" ||
+      name_or_file.find('/') != std::string::npos) {
+    return path;
   }
-  if (extension == ".yaml" || extension == ".yml" || name_or_file.find('/') != std::string::npos) {
-    return readCameraFile(path);
-  }
-  const std::filesystem::path preset = folder / (name_or_file + ".yaml");
+  std::filesystem::path preset = folder / (name_or_file + ".yaml");
   if (!name_or_file.empty() && isPresetFile(preset)) {
-    return readCameraFile(preset);
+    return preset;
   }
   std::string known;
   for (const std::string& name : listCameraPresets(folder)) {
@@ -286,6 +285,11 @@ Camera loadCamera(const std::string& name_or_file, const std::filesystem::path& 
   throw Error(
       "camera " + quote(name_or_file) + " is unknown, expected a YAML file or one of " +
       (known.empty() ? "the presets, but there are none in " + quote(folder.string()) : known));
+}
+
+Camera loadCamera(const std::string& name_or_file, const std::filesystem::path& folder) {
+  const std::filesystem::path file = cameraFileOf(name_or_file, folder);
+  return file.extension() == ".txt" ? readCalibrationMatrix(file) : readCameraFile(file);
 }
 
 }  // namespace evolin

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "evolin_ros/base/atomic_file.h"
 #include "evolin_ros/base/error.h"
 
 namespace evolin {
@@ -166,6 +167,22 @@ cv::Mat readDepthImage(const std::filesystem::path& file, double depth_factor) {
     });
   }
   return depth;
+}
+
+void writeImage(const std::filesystem::path& file, const cv::Mat& image,
+                const std::vector<int>& parameters) {
+  Bytes bytes;
+  bool encoded = false;
+  std::string why;
+  try {
+    encoded = cv::imencode(file.extension().string(), image, bytes, parameters);
+  } catch (const cv::Exception& error) {
+    why = ": " + error.err;
+  }
+  if (!encoded) {
+    throw Error(file.string() + ": the image cannot be encoded" + why);
+  }
+  writeFileAtomically(file, std::string(bytes.begin(), bytes.end()));
 }
 
 }  // namespace evolin

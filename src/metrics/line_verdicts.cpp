@@ -25,6 +25,14 @@ std::size_t LineVerdicts::misses() const {
   return static_cast<std::size_t>(std::count(found.begin(), found.end(), false));
 }
 
+Classification LineVerdicts::counts() const {
+  Classification counts;
+  counts.true_positives = count(LineVerdict::kTruePositive);
+  counts.predicted = counts.true_positives + count(LineVerdict::kFalsePositive);
+  counts.ground_truth = found.size();
+  return counts;
+}
+
 LineVerdicts judgeLines(const VectorizedSetting& setting, Protocol protocol, ImageSize size,
                         const LineSegments& predicted, const LineSegments& ground_truth,
                         bool scored) {

@@ -102,7 +102,7 @@ class LineDetectorNodelet : public SafeNodelet {
     auto settings = std::make_shared<Settings>();
     settings->options = options;
     settings->detector = loader_.loadDetector(options.detector);
-    configure(settings->detector.get(), options.parameters);
+    configure(settings->detector.get(), options);
     settings->camera = std::make_shared<CameraSource>(
         getNodeHandle(), "detector " + options.detector, settings->detector->needs(),
         options.camera, options.rectify);
@@ -111,14 +111,15 @@ class LineDetectorNodelet : public SafeNodelet {
     return settings;
   }
 
-  /// Where the build, for its OpenCV's sake, lacks the detector, the error names those that run.
-  void configure(LineDetector* detector, const YAML::Node& parameters) {
+  /// Where the detector cannot run here (its OpenCV or its network lacks), the error names those
+  /// that can.
+  void configure(LineDetector* detector, const DetectorOptions& options) {
     try {
-      detector->configure(parameters);
+      detector->configure(options.parameters);
     } catch (const UnavailableError& error) {
       std::string others;
       for (const PluginInfo& info : loader_.listDetectors()) {
-        if (info.why_unavailable.empty()) {
+        if (info.why_unavailable.empty() && info.name != options.detector) {
           others += (others.empty() ? "" : ", ") + info.name;
         }
       }

@@ -81,6 +81,7 @@ TEST(CellRecord, TheMatrixHasEveryCellInOrderWithLabelsAndReasons) {
     records.push_back(recordOf(matrix, cell));
   }
   records[0].state = CellState::kFinished;
+  records[0].content_hash = "abc";
   records[1].state = CellState::kUnavailable;
   records[1].error = "no weights";
   const nlohmann::json json = nlohmann::json::parse(matrixJson(matrix, records));
@@ -89,6 +90,8 @@ TEST(CellRecord, TheMatrixHasEveryCellInOrderWithLabelsAndReasons) {
   EXPECT_EQ(cells.at(0).at("detector_label"), "LSD");
   EXPECT_EQ(cells.at(0).at("state"), "finished");
   EXPECT_TRUE(cells.at(0).at("reason").is_null());
+  EXPECT_EQ(cells.at(0).at("content_hash"), "abc");
+  EXPECT_TRUE(cells.at(1).at("content_hash").is_null());
   EXPECT_EQ(cells.at(1).at("detector"), "none");
   EXPECT_TRUE(cells.at(1).at("detector_label").is_null());
   EXPECT_EQ(cells.at(1).at("associator"), "lbd");

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
 
 #include "evolin_ros/evaluation/evaluation_settings.h"
 #include "test/support/expect_error.h"
@@ -169,11 +173,36 @@ TEST_F(MatrixTest, RefusalsNameLineKeyValueAndWhatWasExpected) {
   expectRefusal("- 1\n", {"expected a map"});
 }
 
+std::set<std::string> pluginsOf(const std::vector<BenchmarkMethod>& methods) {
+  std::set<std::string> names;
+  for (const BenchmarkMethod& method : methods) {
+    names.insert(method.plugin);
+  }
+  return names;
+}
+
+/// The methods of a plug-in description; what plays recorded results is none.
+std::set<std::string> shippedPlugins(const std::string& file) {
+  std::ifstream stream(std::filesystem::path(EVOLIN_SOURCE_DIR) / "plugins" / file);
+  const std::string text((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
+  const std::regex name("<class name=\"([^\"]+)\"");
+  std::set<std::string> names;
+  for (std::sregex_iterator found(text.begin(), text.end(), name); found != std::sregex_iterator();
+       ++found) {
+    names.insert((*found)[1]);
+  }
+  EXPECT_EQ(names.erase("recorded"), 1U) << file;
+  return names;
+}
+
 TEST_F(MatrixTest, ShippedMatricesAreWhole) {
   const std::filesystem::path folder =
       std::filesystem::path(EVOLIN_SOURCE_DIR) / "config" / "benchmark";
   const BenchmarkMatrix quick = readBenchmarkMatrix(folder / "quick.yaml", {});
   EXPECT_TRUE(quick.sequences.at(0).synthetic);
+  EXPECT_EQ(pluginsOf(quick.detectors), shippedPlugins("detectors.xml"));
+  EXPECT_EQ(pluginsOf(quick.associators), shippedPlugins("associators.xml"));
   const BenchmarkMatrix article = readBenchmarkMatrix(folder / "article.yaml", "/data");
   EXPECT_EQ(article.sequences.size(), 4U);
   EXPECT_GE(article.detectors.size(), 17U);

@@ -12,9 +12,13 @@
 
 #include "benchmark_command.h"
 #include "child_process.h"
+#include "evolin_ros/inference/network.h"
+#include "render_command.h"
 #include "run_command.h"
 #include "synth_command.h"
 #include "test/cli/outcome.h"
+#include "test/inference/onnx_bytes.h"
+#include "test/support/environment.h"
 #include "test/support/temporary_folder.h"
 
 namespace evolin::cli {
@@ -171,8 +175,16 @@ TEST_F(BenchmarkTest, OnlyWhatIsMissingOrChangedRunsAgain) {
   writeMatrix(small_);
   ASSERT_EQ(run("out").status, kExitDone);
   EXPECT_EQ(figures("out"), first);
+  folder_.write("out/detections/room--lsd/lines/0000.csv", "1,2,30,40\n");
+  folder_.write("out/detections/room--lsd/scores/0000.csv", "1\n");
+  const Outcome alone = run("out", {"--force", "--cell", "room--lsd--none--lines"});
+  EXPECT_NE(alone.err.find("[1/1] room--lsd--none--lines finished"), std::string::npos)
+      << alone.err;
+  EXPECT_NE(figures("out"), first) << "the lines that are there";
   again = run("out", {"--force"});
-  EXPECT_NE(again.err.find("[5/5]"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("[7/7]"), std::string::npos)
+      << "five cells, two detections: " << again.err;
+  EXPECT_EQ(figures("out"), first) << "the lines are found anew";
 }
 
 TEST_F(BenchmarkTest, AChangedInputIsAnotherContent) {
@@ -186,9 +198,8 @@ TEST_F(BenchmarkTest, AChangedInputIsAnotherContent) {
   ASSERT_EQ(run("out").status, kExitDone);
   const Json before = cell("out", "room--hough_p--none--s").at("content_hash");
   EXPECT_EQ(run("out").err, "");
-  folder_.write("room/gt_lines/0001.csv", "1,2,30,40\n");
-  fs::remove_all(path("room/gt_associations_step1"));
-  fs::remove_all(path("room/gt_associations_gaps"));
+  fs::copy_file(path("room/images/0000.png"), path("room/images/0001.png"),
+                fs::copy_options::overwrite_existing);
   ASSERT_EQ(run("out").status, kExitDone);
   EXPECT_NE(cell("out", "room--hough_p--none--s").at("content_hash"), before);
 }
@@ -225,6 +236,9 @@ TEST_F(BenchmarkTest, WhatFailsAndWhatIsNotThereIsToldAndKeepsNothingBack) {
             std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("0001.png"), std::string::npos) << outcome.out;
+  // Two pieces of the broken sequence, one of which never began, and three of the whole one.
+  EXPECT_NE(outcome.err.find("[5/5]"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("[6/"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("did you mean 'lsd'?"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("nowhere is not there"), std::string::npos) << outcome.out;
   EXPECT_EQ(cell("out", "broken--lsd--none--s").at("state"), "failed");
@@ -242,6 +256,94 @@ TEST_F(BenchmarkTest, WhatFailsAndWhatIsNotThereIsToldAndKeepsNothingBack) {
             report("out", "room--lsd--none--s").at("detection").at("entries"));
   EXPECT_EQ(theirs.at("timing").at("detector"),
             report("out", "room--lsd--none--s").at("timing").at("detector"));
+
+  // Pictures are of the same lines; of lines that are gone only a plug-in can be asked again.
+  const auto render = [this](const std::string& id) {
+    return test::runCaptured({renderCommand()}, {"render", "--run", path("out/cells/" + id), "-q",
+                                                 "--output", path("pictures")});
+  };
+  const Outcome pictures = render("room--theirs--none--s");
+  EXPECT_EQ(pictures.status, kExitDone) << pictures.err;
+  EXPECT_NE(pictures.out.find("3 pictures"), std::string::npos) << pictures.out;
+  fs::remove_all(path("theirs"));
+  const Outcome gone = render("room--theirs--none--s");
+  EXPECT_EQ(gone.status, kExitFailed);
+  EXPECT_NE(gone.err.find("theirs/room, which is not there any more"), std::string::npos)
+      << gone.err;
+  fs::remove_all(path("out/detections"));
+  const Outcome anew = render("room--lsd--none--s");
+  EXPECT_EQ(anew.status, kExitDone) << anew.err;
+}
+
+TEST_F(BenchmarkTest, ANetworkWithoutItsFileIsUnavailableAndKeepsNothingBack) {
+  const test::Variable models("EVOLIN_MODELS", path("models"));
+  const test::Variable home("ROS_HOME", path("ros"));
+  writeMatrix(
+      "sequences: [{name: room, synthetic: {frames: 3, width: 96, height: 72}}]\n"
+      "detectors: [lsd, mlsd]\nsettings: [{name: s, metrics: [detection]}]\n");
+  const Outcome outcome = run("out");
+  EXPECT_EQ(outcome.status, kExitDone) << outcome.err;
+  EXPECT_EQ(states("out"),
+            (std::map<std::string, std::string>{{"room--lsd--none--s", "finished"},
+                                                {"room--mlsd--none--s", "unavailable"}}));
+  EXPECT_NE(cell("out", "room--mlsd--none--s").at("error").get<std::string>().find("mlsd"),
+            std::string::npos);
+  if (whyNoNetworks().empty()) {
+    EXPECT_NE(outcome.out.find("there is no file 'mlsd_tiny_512.onnx'"), std::string::npos)
+        << outcome.out;
+  }
+
+  // What was recorded of it takes its place.
+  fs::create_directories(path("theirs"));
+  fs::copy(path("out/detections/room--lsd"), path("theirs/room"), fs::copy_options::recursive);
+  writeMatrix(
+      "sequences: [{name: room, synthetic: {frames: 3, width: 96, height: 72}}]\n"
+      "detectors: [lsd, {name: mlsd, plugin: mlsd, recorded: 'theirs/{sequence}'}]\n"
+      "settings: [{name: s, metrics: [detection]}]\n");
+  EXPECT_EQ(run("out").status, kExitDone);
+  EXPECT_EQ(report("out", "room--mlsd--none--s").at("detection").at("entries"),
+            report("out", "room--lsd--none--s").at("detection").at("entries"));
+}
+
+TEST_F(BenchmarkTest, ANetworksFileIsPartOfTheContent) {
+  if (!whyNoNetworks().empty()) {
+    GTEST_SKIP() << whyNoNetworks();
+  }
+  const test::Variable models("EVOLIN_MODELS", path("models"));
+  const test::Variable home("ROS_HOME", path("ros"));
+  const auto writeModel = [this](const std::string& file, float weight) {
+    namespace onnx = test::onnx;
+    const std::string kernel = onnx::bytes(1, "kernel_shape") + onnx::number(8, 1) +
+                               onnx::number(8, 1) + onnx::number(20, 7);
+    const std::string graph =
+        onnx::bytes(1, onnx::node("Conv", {"image", "weights"}, "maps") + onnx::bytes(5, kernel)) +
+        onnx::bytes(2, "test") +
+        onnx::bytes(5, onnx::weight("weights", {5, 3, 1, 1}, std::vector<float>(15, weight))) +
+        onnx::bytes(11, onnx::value("image", {1, 3, 16, 16})) +
+        onnx::bytes(12, onnx::value("maps", {1, 5, 16, 16}));
+    folder_.write("models/" + file, onnx::model(graph));
+  };
+  writeMatrix(
+      "sequences: [{name: room, synthetic: {frames: 3, width: 96, height: 72}}]\n"
+      "detectors: [mlsd, {name: other, plugin: mlsd, parameters: {model: other.onnx}}]\n"
+      "settings: [{name: s, metrics: [detection]}]\n");
+  const auto hashes = [this] {
+    const Outcome outcome = run("out", {"--list", "--format", "json"});
+    const Json list = Json::parse(outcome.out);
+    EXPECT_EQ(list.at("cells").at(0).at("state"), "pending") << outcome.out;
+    return std::make_pair(list.at("cells").at(0).at("content_hash"),
+                          list.at("cells").at(1).at("content_hash"));
+  };
+  writeModel("mlsd_tiny_512.onnx", 0);
+  writeModel("other.onnx", 0);
+  const auto before = hashes();
+  EXPECT_EQ(hashes(), before);
+  writeModel("mlsd_tiny_512.onnx", 1);
+  const auto after = hashes();
+  EXPECT_NE(after.first, before.first);
+  EXPECT_EQ(after.second, before.second) << "it names another file";
+  writeModel("other.onnx", 1);
+  EXPECT_NE(hashes().second, before.second);
 }
 
 TEST_F(BenchmarkTest, ListAndCellLetOthersRunTheMatrix) {
@@ -283,6 +385,8 @@ TEST_F(BenchmarkTest, RefusalsNameWhatIsWrong) {
                "did you mean 'room--lsd--none--lines'?");
   expectStatus(run("out", {"--jobs", "-1"}), kExitWrongUse, "--jobs");
   expectStatus(run("out", {"--list", "--collect"}), kExitWrongUse, "at most one");
+  expectStatus(run("out", {"--collect", "--force"}), kExitWrongUse, "--force");
+  expectStatus(run("out", {"--detection", "room--lsd", "--force"}), kExitWrongUse, "--force");
   expectStatus(run("out", {"--list", "--format", "xml"}), kExitWrongUse, "'xml'");
   folder_.write("precious/file.txt", "x");
   expectStatus(run("precious"), kExitFailed, "benchmark.txt");
@@ -295,7 +399,6 @@ TEST_F(BenchmarkTest, RefusalsNameWhatIsWrong) {
 
 TEST_F(BenchmarkTest, CtrlCKeepsWhatIsDone) {
   writeMatrix(small_);
-  std::string status;
   // In a process of its own, which may be sent signals.
   ChildProcess benchmark([&] {
     return std::to_string(runProgram({benchmarkCommand()}, command("out", {"--quiet"})));

@@ -93,6 +93,26 @@ TEST_F(RenderTest, ARecordingThatHasMovedIsNamed) {
   EXPECT_EQ(outcome.status, kExitDone) << outcome.err;
 }
 
+TEST_F(RenderTest, TheRunsOptionsOfTheInputAreTakenOver) {
+  makeRun();
+  fs::rename(path("data/gt_lines"), path("annotations"));
+  ASSERT_EQ(call({"run", "--input", path("data"), "--ground-truth", path("annotations"), "-levolin",
+                  "--duration", "0.09", "--detector", "hough_p", "--metrics", "detection",
+                  "--bootstrap", "0", "-q", "--output", path("run")})
+                .status,
+            kExitDone);
+  Outcome outcome = call({"render", "-r" + path("run"), "--output", path("out"), "-q"});
+  ASSERT_EQ(outcome.status, kExitDone) << outcome.err;
+  EXPECT_NE(outcome.out.find("3 pictures"), std::string::npos) << outcome.out;
+  const cv::Mat picture = cv::imread(path("out/0000.png"));
+  EXPECT_GT(pixelsLike(picture(cv::Rect(0, 0, 320, 240)), {255, 255, 255}), 20)
+      << "missed lines are those of the run's annotations";
+  outcome =
+      call({"render", "--run=" + path("run"), "--output", path("out"), "-q", "--duration=0.05"});
+  ASSERT_EQ(outcome.status, kExitDone) << outcome.err;
+  EXPECT_NE(outcome.out.find("2 pictures"), std::string::npos) << "its own goes over the run's";
+}
+
 TEST_F(RenderTest, RefusalsNameWhatIsWrong) {
   makeRun();
   const auto expectRefusal = [this](std::vector<std::string> more, int status,

@@ -53,6 +53,15 @@ TEST(LoadCamera, NamesThePresetsWhenThereIsNoSuchOne) {
   expectError([] { loadCamera("icl", "/nowhere"); }, {"/nowhere"});
 }
 
+TEST(CameraFileOf, IsThePresetOfAPlainNameAndElseTheTextItself) {
+  EXPECT_EQ(cameraFileOf("icl", presetFolder()), presetFolder() / "icl.yaml");
+  for (const char* text :
+       {"icl.yaml", "mine.yml", "calibration_matrix.txt", "./icl", "/nowhere/x"}) {
+    EXPECT_EQ(cameraFileOf(text, presetFolder()), text);
+  }
+  expectError([] { cameraFileOf("", presetFolder()); }, {"''", "icl, tum_fr1"});
+}
+
 TEST(LoadCamera, TakesAFileByItsPath) {
   const TemporaryFolder folder;
   const auto file = folder.write("own.yaml", kGood);

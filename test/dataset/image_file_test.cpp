@@ -158,5 +158,25 @@ TEST(ReadImage, ReadsEveryRealSampleImage) {
   EXPECT_EQ(images, 10 + 58 + 9);
 }
 
+TEST(WriteImage, WritesWhatIsReadAgain) {
+  const TemporaryFolder folder;
+  const cv::Mat image = noise(CV_8UC3);
+  writeImage(folder.path() / "a.png", image);
+  EXPECT_EQ(difference(readImage(folder.path() / "a.png"), image), 0);
+  writeImage(folder.path() / "a.jpg", image, {cv::IMWRITE_JPEG_QUALITY, 10});
+  writeImage(folder.path() / "b.jpg", image, {cv::IMWRITE_JPEG_QUALITY, 95});
+  EXPECT_LT(contentOf(folder.path() / "a.jpg").size(), contentOf(folder.path() / "b.jpg").size());
+}
+
+TEST(WriteImage, NamesTheFileThatItCannotMake) {
+  const TemporaryFolder folder;
+  expectError([&] { writeImage(folder.path() / "a.txt", noise(CV_8UC3)); },
+              {"a.txt", "cannot be encoded"});
+  expectError([&] { writeImage(folder.path() / "a.png", cv::Mat()); },
+              {"a.png", "cannot be encoded"});
+  expectError([&] { writeImage(folder.path() / "none/a.png", noise(CV_8UC1)); }, {"none/a.png"});
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 }  // namespace
 }  // namespace evolin

@@ -30,6 +30,10 @@ TEST(JudgeLines, NamesTheRowOfEveryVerdict) {
   EXPECT_EQ(verdicts.found, (Found{false, true}));
   EXPECT_EQ(verdicts.count(kFalse), 2U);
   EXPECT_EQ(verdicts.misses(), 1U);
+  const Classification counts = verdicts.counts();
+  EXPECT_EQ(counts.true_positives, 1U);
+  EXPECT_EQ(counts.predicted, 3U) << "a dropped line is none";
+  EXPECT_EQ(counts.ground_truth, 2U);
 }
 
 TEST(JudgeLines, TheHigherScoreTakesTheLine) {

@@ -112,7 +112,7 @@ class InstallSpace(unittest.TestCase):
 
     def test_every_shipped_file_is_installed(self):
         source = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
-        for folder in ("config", "launch", "msg", "plugins", "python", "rviz"):
+        for folder in ("config", "launch", "msg", "plugins", "python", "rviz", "workflow"):
             for place, _, names in os.walk(os.path.join(source, folder)):
                 for name in names:
                     inner = os.path.relpath(os.path.join(place, name), source)

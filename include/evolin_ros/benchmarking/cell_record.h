@@ -51,8 +51,9 @@ void writeCellRecord(const CellRecord& record, const std::filesystem::path& fold
 CellRecord stateOf(CellRecord wanted, const std::filesystem::path& folder);
 
 /// matrix.json as text: {"program_version", "cells": [...]} by the order of the matrix, each with
-/// id, sequence, detector, detector_label, associator, setting, state and reason (null: none).
-/// `records` are those of the cells.
+/// id, sequence, detector, detector_label, associator, associator_label, setting, content_hash
+/// (null: unknown), state and reason (null: none). A cell's own cell.json is of this matrix when it
+/// has the same content_hash. `records` are those of the cells.
 std::string matrixJson(const BenchmarkMatrix& matrix, const std::vector<CellRecord>& records);
 
 }  // namespace evolin

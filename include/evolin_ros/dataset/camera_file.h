@@ -26,9 +26,13 @@ Camera readCalibrationMatrix(const std::filesystem::path& file);
 /// there is no such folder.
 std::vector<std::string> listCameraPresets(const std::filesystem::path& folder);
 
-/// The camera that a user means by `name_or_file`: a preset of `folder`, or a file when the text
-/// has a slash or an extension .yaml, .yml or .txt (a calibration matrix). Throws Error naming the
-/// presets when there is neither.
+/// The file that a user means by `name_or_file`: that of a preset of `folder`, or the text itself
+/// when it has a slash or an extension .yaml, .yml or .txt (a calibration matrix), be it there or
+/// not. Throws Error naming the presets when it is neither.
+std::filesystem::path cameraFileOf(const std::string& name_or_file,
+                                   const std::filesystem::path& folder);
+
+/// The camera in cameraFileOf(); throws as that and as the functions that read it.
 Camera loadCamera(const std::string& name_or_file, const std::filesystem::path& folder);
 
 }  // namespace evolin

@@ -1,4 +1,4 @@
-// Colour and depth images from files, whole or not at all.
+// Colour and depth images in files, whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -24,5 +24,10 @@ cv::Mat readStoredDepth(const std::filesystem::path& file);
 /// CV_32FC1 metres from a 16-bit one-channel image that stores metres x `depth_factor`; 0 in the
 /// file means no depth and becomes NaN. Throws as readStoredDepth().
 cv::Mat readDepthImage(const std::filesystem::path& file, double depth_factor);
+
+/// Writes the file as a whole or not at all, in the form that its extension names (.png, .jpg);
+/// `parameters` are those of cv::imencode(). Throws Error naming the file.
+void writeImage(const std::filesystem::path& file, const cv::Mat& image,
+                const std::vector<int>& parameters = {});
 
 }  // namespace evolin

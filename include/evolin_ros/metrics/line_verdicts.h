@@ -7,6 +7,7 @@
 
 #include "evolin_ros/geometry/image_size.h"
 #include "evolin_ros/geometry/line_segment.h"
+#include "evolin_ros/metrics/classification.h"
 #include "evolin_ros/metrics/protocol.h"
 #include "evolin_ros/metrics/vectorized.h"
 
@@ -21,6 +22,9 @@ struct LineVerdicts {
 
   std::size_t count(LineVerdict verdict) const;
   std::size_t misses() const;
+
+  /// What the frame adds to precision and recall; dropped lines add nothing.
+  Classification counts() const;
 };
 
 /// The verdicts behind the counts that VectorizedMetrics gives of this frame under `setting`; takes
