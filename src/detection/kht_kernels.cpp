@@ -123,8 +123,10 @@ Kernel KernelFinder::kernelOf(const Cluster& cluster, double middle_x, double mi
     mean_x += chains_.pixels[i].x;
     mean_y += chains_.pixels[i].y;
   }
-  mean_x = mean_x / n - middle_x;
-  mean_y = mean_y / n - middle_y;
+  // Times 1/n, as the method's authors have it: the last bit of an upright line's mean says in
+  // which of two bins it lies, and on which side of the accumulator.
+  mean_x = (mean_x - n * middle_x) * (1 / n);
+  mean_y = (mean_y - n * middle_y) * (1 / n);
   double xx = 0;
   double yy = 0;
   double xy = 0;
@@ -141,7 +143,10 @@ Kernel KernelFinder::kernelOf(const Cluster& cluster, double middle_x, double mi
   const double uy = std::sin(angle);
   double vx = -uy;
   double vy = ux;
-  if (vy < 0) {
+  if (xy == 0 && xx < yy) {  // exactly upright: 0 degrees, not 180
+    vx = 1;
+    vy = 0;
+  } else if (vy < 0) {
     vx = -vx;
     vy = -vy;
   }

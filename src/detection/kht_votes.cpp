@@ -44,8 +44,12 @@ const std::vector<PolarLine>& Accumulator::vote(const std::vector<Kernel>& kerne
 }
 
 void Accumulator::clear(cv::Size size) {
-  for (const std::size_t bin : touched_) votes_[bin] = 0;
-  touched_.clear();
+  for (std::size_t theta = 0; theta < spans_.size(); ++theta) {
+    const Span& span = spans_[theta];
+    for (int rho = span.begin; rho < span.end; ++rho)
+      votes_[binAt(rho, static_cast<int>(theta))] = 0;
+    spans_[theta] = Span();
+  }
   lines_.clear();
   const double diagonal = std::hypot(size.width, size.height);
   greatest_rho_ = diagonal / 2;
@@ -56,6 +60,7 @@ void Accumulator::clear(cv::Size size) {
     thetas_ = thetas;
     votes_.assign(binAt(0, thetas_ + 2), 0);
     visited_.assign(votes_.size(), 0);
+    spans_.assign(static_cast<std::size_t>(thetas_) + 2, Span());
   }
 }
 
@@ -84,19 +89,22 @@ void Accumulator::voteQuarter(const Kernel& kernel, double scale, int rho_step, 
     }
     bool any = false;
     double offset = rho_offset;
-    for (int rho = first_rho; rho >= 1 && rho <= rhos_; rho += rho_step) {
+    int rho = first_rho;
+    for (; rho >= 1 && rho <= rhos_; rho += rho_step) {
       const auto votes = static_cast<std::int32_t>(
           std::min(kernel.at(offset, theta_offset) * scale, kMostVotes) + 0.5);
       if (votes <= 0) {
         break;
       }
-      std::int32_t& bin = votes_[binAt(rho, theta)];
-      if (bin == 0) touched_.push_back(binAt(rho, theta));
-      bin += votes;
+      votes_[binAt(rho, theta)] += votes;
       any = true;
       offset += rho_direction * delta_;
     }
-    if (!any && ++empty == kEmptyRows) {
+    if (any) {
+      Span& span = spans_[static_cast<std::size_t>(theta)];
+      span.begin = std::min(span.begin, std::min(first_rho, rho - rho_step));
+      span.end = std::max(span.end, std::max(first_rho, rho - rho_step) + 1);
+    } else if (++empty == kEmptyRows) {
       return;
     }
     theta += theta_step;
@@ -107,16 +115,22 @@ void Accumulator::voteQuarter(const Kernel& kernel, double scale, int rho_step, 
 void Accumulator::findPeaks() {
   const std::size_t row = static_cast<std::size_t>(rhos_) + 2;
   peaks_.clear();
-  for (const std::size_t bin : touched_) {
-    const std::int32_t* here = votes_.data() + bin;
-    const auto three = [](const std::int32_t* p) {
-      return std::int64_t{p[-1]} + 2 * std::int64_t{p[0]} + p[1];
-    };
-    peaks_.push_back({three(here - row) + 2 * three(here) + three(here + row), bin});
+  const auto three = [](const std::int32_t* p) {
+    return std::int64_t{p[-1]} + 2 * std::int64_t{p[0]} + p[1];
+  };
+  for (std::size_t theta = 0; theta < spans_.size(); ++theta) {
+    for (int rho = spans_[theta].begin; rho < spans_[theta].end; ++rho) {
+      const std::size_t bin = binAt(rho, static_cast<int>(theta));
+      const std::int32_t* here = votes_.data() + bin;
+      if (*here > 0) {
+        peaks_.push_back({three(here - row) + 2 * three(here) + three(here + row), bin});
+      }
+    }
   }
-  std::sort(peaks_.begin(), peaks_.end(), [](const Peak& a, const Peak& b) {
-    return a.votes != b.votes ? a.votes > b.votes : a.bin < b.bin;
-  });
+  // Not stable, on purpose: in a plateau of equal votes a stable order finds one line, and the
+  // authors' code several, which std::sort of the same bins in the same order finds too.
+  std::sort(peaks_.begin(), peaks_.end(),
+            [](const Peak& a, const Peak& b) { return a.votes > b.votes; });
   for (const Peak& peak : peaks_) {
     const std::uint8_t* here = visited_.data() + peak.bin;
     const auto any = [](const std::uint8_t* p) { return (p[-1] | p[0] | p[1]) != 0; };

@@ -1,7 +1,9 @@
 // The accumulator of KHT: kernels vote for lines, and its peaks are lines.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -30,6 +32,12 @@ class Accumulator {
     std::size_t bin = 0;
   };
 
+  /// Bins [begin, end) of one theta, by rho.
+  struct Span {
+    int begin = std::numeric_limits<int>::max();
+    int end = 0;
+  };
+
   void clear(cv::Size size);
   void voteQuarter(const Kernel& kernel, double scale, int rho_step, int theta_step);
   void findPeaks();
@@ -44,7 +52,7 @@ class Accumulator {
   int rhos_ = 0;    // bins are from 1 to rhos_, and
   int thetas_ = 0;  // from 1 to thetas_; those around stay empty
   std::vector<std::int32_t> votes_;
-  std::vector<std::size_t> touched_;  // bins with votes
+  std::vector<Span> spans_;  // of the bins with votes, by theta
   std::vector<std::uint8_t> visited_;
   std::vector<Peak> peaks_;
   std::vector<PolarLine> lines_;

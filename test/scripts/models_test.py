@@ -182,7 +182,7 @@ class Checkpoints(unittest.TestCase):
         self.refused(file, "hostile.pth: is no PyTorch checkpoint")
         self.assertFalse(os.path.exists(written), "code of the checkpoint has run")
         with open(file, "rb") as stream:
-            pickle.load(stream).close()
+            pickle.load(stream)
         self.assertTrue(os.path.exists(written), "the checkpoint is harmless: it tests nothing")
 
     def test_sizes_that_the_network_cannot_have_are_refused(self):
