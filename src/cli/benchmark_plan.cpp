@@ -38,7 +38,10 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 class Planner {
  public:
   Planner(const BenchmarkMatrix& matrix, const fs::path& root)
-      : matrix_(matrix), root_(root), digests_(root.empty() ? fs::path() : root / "digests.txt") {}
+      : matrix_(matrix),
+        root_(root),
+        digests_(root.empty() ? fs::path() : root / "digests.txt"),
+        program_({{"version", programVersion()}, {"files", digests_.digestOf(programFiles())}}) {}
 
   BenchmarkPlan plan() {
     for (const BenchmarkSequence& sequence : matrix_.sequences) {
@@ -101,7 +104,7 @@ class Planner {
     const BenchmarkSequence& sequence = matrix_.sequences[cell.sequence];
     PlannedCell planned;
     planned.unavailable = plan_.sequences[cell.sequence].unavailable;
-    Json content = {{"program", programVersion()},
+    Json content = {{"program", program_},
                     {"sequence", plan_.sequences[cell.sequence].digest},
                     {"evaluation", toJson(cell.evaluation)}};
     if (cell.detector && planned.unavailable.empty()) {
@@ -162,7 +165,7 @@ class Planner {
       detection.sequence = cell.sequence;
       detection.detector = *cell.detector;
       detection.content_hash = digestOfText(Json{
-          {"program", programVersion()},
+          {"program", program_},
           {"sequence", plan_.sequences[cell.sequence].digest},
           {"detector", content}}.dump());
       plan_.detections.push_back(std::move(detection));
@@ -251,6 +254,7 @@ class Planner {
   const BenchmarkMatrix& matrix_;
   fs::path root_;
   DigestCache digests_;
+  Json program_;
   std::unique_ptr<PluginLoader> loader_;
   std::optional<std::vector<ModelEntry>> catalogue_;
   std::map<std::string, Method> detectors_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace evolin {
 
@@ -15,5 +16,9 @@ std::filesystem::path cameraFolder();
 
 /// The list of network files, config/models.yaml; throws as above.
 std::filesystem::path modelCatalogueFile();
+
+/// The files that this process's results depend on besides its inputs and foreign libraries: the
+/// running program, and the package's libraries where they were loaded from, in order of name.
+std::vector<std::filesystem::path> programFiles();
 
 }  // namespace evolin
