@@ -1,5 +1,5 @@
-// What ROS adds to a detector: latency and throughput of the detector nodelet in this process
-// against the plain call, on one stream of 640x480 images. Needs a roscore.
+// What ROS adds to a method: latency and throughput of the detector's and the associator's nodelet
+// in this process against plain calls, on one stream of 640x480 images. Needs a roscore.
 #include <nodelet/loader.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
@@ -17,6 +17,7 @@
 #include "benchmark/frames.h"
 #include "conversions.h"
 #include "evolin_ros/LineArray.h"
+#include "evolin_ros/LineMatchArray.h"
 #include "plugin_loader.h"
 
 namespace evolin {
@@ -38,22 +39,31 @@ struct Result {
   double processing = 0;
 };
 
-/// A nodelet in this process, its input and its output.
+/// A nodelet in this process, its inputs and its output. Topics are in /shell_benchmark.
+template <class Output>
 class Stream {
  public:
-  Stream(const std::string& detector, std::string encoding)
-      : encoding_(std::move(encoding)),
-        loader_(false),
-        image_(handle_.advertise<sensor_msgs::Image>("shell_benchmark/image", 0)),
-        lines_(handle_.subscribe("shell_benchmark/lines", 0, &Stream::onLines, this)) {
-    ros::param::set("/shell_benchmark/detector/detector", detector);
-    if (!loader_.load("/shell_benchmark/detector", "evolin_ros/LineDetector",
-                      {{"image", "/shell_benchmark/image"}, {"lines", "/shell_benchmark/lines"}},
-                      {})) {
+  /// `type` and parameter are of the nodelet; `lines` of each frame go with its image if the
+  /// nodelet reads `lines`.
+  Stream(const std::string& type, const std::string& parameter, const std::string& method,
+         const std::string& encoding, const std::string& output, std::vector<LineSegments> lines)
+      : loader_(false),
+        lines_of_frames_(std::move(lines)),
+        image_(handle_.advertise<sensor_msgs::Image>(topic("image"), 0)),
+        output_(handle_.subscribe(topic(output), 0, &Stream::onOutput, this)) {
+    if (!lines_of_frames_.empty()) {
+      lines_ = handle_.advertise<evolin_ros::LineArray>(topic("lines"), 0);
+    }
+    const std::string name = topic(parameter);
+    ros::param::set(name + "/" + parameter, method);
+    if (!loader_.load(
+            name, type,
+            {{"image", topic("image")}, {"lines", topic("lines")}, {output, topic(output)}}, {})) {
       throw std::runtime_error("the nodelet does not load");
     }
     const auto begin = Clock::now();
-    while (image_.getNumSubscribers() == 0 || lines_.getNumPublishers() == 0) {
+    while (image_.getNumSubscribers() == 0 || (lines_ && lines_.getNumSubscribers() == 0) ||
+           output_.getNumPublishers() == 0) {
       if (secondsSince(begin) > kPatience) {
         throw std::runtime_error("the nodelet does not connect");
       }
@@ -63,9 +73,9 @@ class Stream {
       sensor_msgs::Image image;
       image.height = static_cast<std::uint32_t>(frame.image.rows);
       image.width = static_cast<std::uint32_t>(frame.image.cols);
-      image.encoding = encoding_;
+      image.encoding = encoding;
       cv::Mat pixels = frame.image;
-      if (encoding_ == sensor_msgs::image_encodings::BGR8) {
+      if (encoding == sensor_msgs::image_encodings::BGR8) {
         cv::cvtColor(frame.image, pixels, cv::COLOR_GRAY2BGR);
       }
       image.step = static_cast<std::uint32_t>(pixels.step);
@@ -74,14 +84,33 @@ class Stream {
     }
   }
 
-  /// A new message as a driver in the same manager would publish it.
-  boost::shared_ptr<sensor_msgs::Image> makeImage() {
-    auto message = boost::make_shared<sensor_msgs::Image>(images_[sent_ % images_.size()]);
-    message->header.stamp = ros::Time(1000) + ros::Duration(0.01 * static_cast<double>(++sent_));
-    return message;
+  /// New messages as a driver, and a detector, in the same manager would publish them.
+  struct Messages {
+    boost::shared_ptr<sensor_msgs::Image> image;
+    boost::shared_ptr<evolin_ros::LineArray> lines;  ///< null where the nodelet reads none
+  };
+
+  Messages make() {
+    Messages made;
+    const std::size_t frame = sent_ % images_.size();
+    made.image = boost::make_shared<sensor_msgs::Image>(images_[frame]);
+    made.image->header.stamp = ros::Time(1000) + ros::Duration(0.01 * static_cast<double>(++sent_));
+    if (lines_) {
+      LineSet set;
+      set.lines = lines_of_frames_.at(frame);
+      set.source = "benchmark";
+      made.lines = boost::make_shared<evolin_ros::LineArray>(ros_shell::toMessage(set));
+      made.lines->header = made.image->header;
+    }
+    return made;
   }
 
-  void publish(const boost::shared_ptr<sensor_msgs::Image>& message) { image_.publish(message); }
+  void publish(const Messages& messages) {
+    image_.publish(messages.image);
+    if (messages.lines) {
+      lines_.publish(messages.lines);
+    }
+  }
 
   /// Waits until so many results are there.
   void waitFor(std::size_t count) {
@@ -98,7 +127,9 @@ class Stream {
   }
 
  private:
-  void onLines(const evolin_ros::LineArrayConstPtr& message) {
+  static std::string topic(const std::string& name) { return "/shell_benchmark/" + name; }
+
+  void onOutput(const boost::shared_ptr<const Output>& message) {
     const Clock::time_point now = Clock::now();
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -107,16 +138,17 @@ class Stream {
     changed_.notify_all();
   }
 
-  std::string encoding_;
   ros::NodeHandle handle_;
   nodelet::Loader loader_;
   std::vector<sensor_msgs::Image> images_;
+  std::vector<LineSegments> lines_of_frames_;
   std::size_t sent_ = 0;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Result> results_;
   ros::Publisher image_;
-  ros::Subscriber lines_;
+  ros::Publisher lines_;
+  ros::Subscriber output_;
 };
 
 double percentile(std::vector<double> values, double share) {
@@ -124,14 +156,15 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-/// One image at a time: from publishing to the lines' arrival, less what the method took.
-void measureLatency(Stream* stream, const char* name) {
+/// One image at a time: from publishing to the result's arrival, less what the method took.
+template <class Output>
+void measureLatency(Stream<Output>* stream, const std::string& name) {
   std::vector<double> added;
   std::vector<double> processing;
   for (int i = 0; i < kFrames; ++i) {
-    const auto message = stream->makeImage();
+    const auto messages = stream->make();
     const auto begin = Clock::now();
-    stream->publish(message);
+    stream->publish(messages);
     stream->waitFor(1);
     const Result result = stream->takeResults().front();
     const double latency = std::chrono::duration<double>(result.when - begin).count();
@@ -141,15 +174,16 @@ void measureLatency(Stream* stream, const char* name) {
   std::printf(
       "%-6s latency: the method %.3f ms (median); the shell adds %.3f ms (median), "
       "%.3f ms (95 %%)\n",
-      name, percentile(processing, 0.5), percentile(added, 0.5), percentile(added, 0.95));
+      name.c_str(), percentile(processing, 0.5), percentile(added, 0.5), percentile(added, 0.95));
 }
 
-/// Images without pause, at most 8 ahead, against calling the method on the same frames.
-void measureThroughput(Stream* stream, const std::string& detector_name, const char* name) {
+/// Images without pause, at most 8 ahead, against `plain` on the same messages.
+template <class Output, class Plain>
+void measureThroughput(Stream<Output>* stream, const std::string& name, const Plain& plain) {
   constexpr std::size_t kAhead = 8;
   const auto begin = Clock::now();
   for (std::size_t i = 0; i < kFrames; ++i) {
-    stream->publish(stream->makeImage());
+    stream->publish(stream->make());
     if (i >= kAhead) {
       stream->waitFor(i - kAhead);
     }
@@ -158,29 +192,59 @@ void measureThroughput(Stream* stream, const std::string& detector_name, const c
   const double online = secondsSince(begin);
   stream->takeResults();
 
-  PluginLoader loader;
-  const std::shared_ptr<LineDetector> detector = loader.loadDetector(detector_name);
-  detector->configure(YAML::Node());
   const auto plain_begin = Clock::now();
-  for (int i = 0; i < kFrames; ++i) {
-    const Frame frame = ros_shell::toFrame(stream->makeImage());
-    detector->detect(frame);
-  }
-  const double plain = secondsSince(plain_begin);
+  for (int i = 0; i < kFrames; ++i) plain(stream->make());
+  const double alone = secondsSince(plain_begin);
   std::printf(
       "%-6s throughput: %.1f images/s through the nodelet, %.1f images/s by plain calls "
       "(%.3f ms a frame more)\n",
-      name, kFrames / online, kFrames / plain, (online - plain) / kFrames * kMilliseconds);
+      name.c_str(), kFrames / online, kFrames / alone, (online - alone) / kFrames * kMilliseconds);
 }
 
-int run(const std::string& detector) {
+void measureDetector(const std::string& method, const std::string& encoding) {
+  using DetectorStream = Stream<evolin_ros::LineArray>;
+  PluginLoader loader;
+  const std::shared_ptr<LineDetector> detector = loader.loadDetector(method);
+  detector->configure(YAML::Node());
+  DetectorStream stream("evolin_ros/LineDetector", "detector", method, encoding, "lines", {});
+  measureLatency(&stream, encoding);
+  measureThroughput(&stream, encoding, [&](const DetectorStream::Messages& messages) {
+    detector->detect(ros_shell::toFrame(messages.image));
+  });
+}
+
+void measureAssociator(const std::string& method, const std::string& detector_name,
+                       const std::string& encoding) {
+  using AssociatorStream = Stream<evolin_ros::LineMatchArray>;
+  PluginLoader loader;
+  const std::shared_ptr<LineDetector> detector = loader.loadDetector(detector_name);
+  detector->configure(YAML::Node());
+  std::vector<LineSegments> lines;
+  for (const Frame& frame : benchmark_frames::load()) lines.push_back(detector->detect(frame));
+  const std::shared_ptr<LineAssociator> associator = loader.loadAssociator(method);
+  associator->configure(YAML::Node());
+
+  AssociatorStream stream("evolin_ros/LineAssociator", "associator", method, encoding, "matches",
+                          lines);
+  stream.publish(stream.make());  // the first frame has nothing before it
+  measureLatency(&stream, encoding);
+  FrameLines before;
+  measureThroughput(&stream, encoding, [&](const AssociatorStream::Messages& messages) {
+    FrameLines frame;
+    frame.frame = ros_shell::toFrame(messages.image);
+    frame.lines = ros_shell::fromMessage(*messages.lines).lines;
+    if (!before.frame.image.empty()) associator->match(before, frame);
+    before = std::move(frame);
+  });
+}
+
+int run(const std::string& detector, const std::string& associator) {
+  const std::vector<std::string> encodings = {sensor_msgs::image_encodings::MONO8,
+                                              sensor_msgs::image_encodings::BGR8};
   std::printf("detector %s, %d images of 640x480\n", detector.c_str(), kFrames);
-  for (const std::string& encoding :
-       {sensor_msgs::image_encodings::MONO8, sensor_msgs::image_encodings::BGR8}) {
-    Stream stream(detector, encoding);
-    measureLatency(&stream, encoding.c_str());
-    measureThroughput(&stream, detector, encoding.c_str());
-  }
+  for (const std::string& encoding : encodings) measureDetector(detector, encoding);
+  std::printf("associator %s on its lines\n", associator.c_str());
+  for (const std::string& encoding : encodings) measureAssociator(associator, detector, encoding);
   return 0;
 }
 
@@ -197,7 +261,7 @@ int main(int argc, char** argv) {
   ros::AsyncSpinner spinner(1);
   spinner.start();
   try {
-    return evolin::run(argc > 1 ? argv[1] : "hough_p");
+    return evolin::run(argc > 1 ? argv[1] : "hough_p", argc > 2 ? argv[2] : "lbd");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "shell_benchmark: %s\n", error.what());
     return 1;
