@@ -77,6 +77,9 @@ class Report:
         if len(self.protocols()) > 1:
             found.append("These runs followed different protocols (%s): their figures do not "
                          "compare." % ", ".join(self.protocols()))
+        pending = ["%s (%s)" % (run.id, run.reason) for run in self.runs if run.is_pending]
+        if pending:
+            found.append("Pending, in no table: %s." % "; ".join(pending))
         for run in self.runs:
             if run.state == "incomplete":
                 found.append("%s: incomplete: %s." % (run.id, run.reason))

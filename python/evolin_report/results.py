@@ -10,6 +10,7 @@ from .errors import ReportError
 REPORT = "report.json"
 MATRIX = "matrix.json"
 NO_METHOD = "-"
+PENDING = ("pending", "not run")
 
 
 def refuse_literal(name):
@@ -111,6 +112,11 @@ class Run:
         self.reason = names.get("reason") or ""
         self.benchmark = names.get("benchmark") or ""
         self._tables = {}
+
+    @property
+    def is_pending(self):
+        """Still to be run, so that there is nothing to tell of it yet."""
+        return self.state in PENDING
 
     def section(self, family):
         part = self.report.get(family)
@@ -232,7 +238,7 @@ def read_cell(root, entry, path):
     reason = cell.get("error") or cell.get("reason") or ""
     if state != "finished":
         report = {}
-        reason = reason or ("not run yet" if state in ("pending", "not run") else state)
+        reason = reason or ("not run yet" if state in PENDING else state)
     elif not report:
         state = "failed"
         reason = "finished, but %s is not there" % os.path.join(folder, REPORT)

@@ -332,7 +332,9 @@ def name_settings(table):
 
 
 def make_tables(runs):
-    """All tables, sequence by sequence. A family that no run was asked for has none."""
+    """All tables, sequence by sequence. A family that no run was asked for has none; what is still
+    to be run is no row: what it will measure is not known yet."""
+    runs = [run for run in runs if not run.is_pending]
     made = []
     for sequence in sequences_of(runs):
         here = [run for run in runs if run.sequence == sequence]

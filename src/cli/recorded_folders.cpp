@@ -113,7 +113,7 @@ bool record(PartReader* reader, FrontEnd* front_end, FrontEndSink* sink, bool qu
   for (const std::string& note : reader->notes()) {
     sink->takeNote(note);
   }
-  for (const std::string& note : front_end->notes()) {
+  if (const std::string note = front_end->note(); !note.empty()) {
     sink->takeNote(note);
   }
   return !more;

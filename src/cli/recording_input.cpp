@@ -152,11 +152,11 @@ std::unique_ptr<PartReader> RecordingInput::open(const WantedParts& wanted,
     options.read_depth = wanted.motion || needs.depth;
     return openFolderParts(inputs_.front(), options, wanted);
   }
-  const bool completed = needs.depth || needs.pose;
+  const bool motion = needs.depth || needs.pose;
   WantedParts read = wanted;
-  read.motion = wanted.motion || completed;
+  read.motion = wanted.motion || motion;
   std::unique_ptr<PartReader> reader = openBagParts({inputs_.begin(), inputs_.end()}, bag_, read);
-  if (!completed) {
+  if (!motion && !needs.camera) {
     return reader;
   }
   try {

@@ -95,25 +95,26 @@ bool isGiven(const std::string& argument, const std::string& name, const std::st
          (!letter.empty() && argument.rfind(letter, 0) == 0);
 }
 
-/// The folder behind --run among arguments that are not read yet.
-std::optional<std::string> runOf(const std::vector<std::string>& arguments) {
+/// The first value of an option among arguments that are not read yet.
+std::optional<std::string> valueOf(const std::vector<std::string>& arguments,
+                                   const std::string& name, const std::string& letter) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
-    if (!isGiven(argument, "--run", "-r")) {
+    if (!isGiven(argument, name, letter)) {
       continue;
     }
-    if (argument == "--run" || argument == "-r") {
+    if (argument == name || argument == letter) {
       return i + 1 < arguments.size() ? std::make_optional(arguments[i + 1]) : std::nullopt;
     }
-    return argument.substr(argument[1] == '-' ? 6 : 2);
+    return argument.substr(argument[1] == '-' ? name.size() + 1 : letter.size());
   }
   return std::nullopt;
 }
 
 /// With what the run's report says of the recording and of the options that went with it, each
-/// where it is not given anew.
+/// where it is not given anew. Options of a folder are none of a bag, nor the other way round.
 std::vector<std::string> withInput(std::vector<std::string> arguments) {
-  const std::optional<std::string> run = runOf(arguments);
+  const std::optional<std::string> run = valueOf(arguments, "--run", "-r");
   if (!run) {
     return arguments;
   }
@@ -139,7 +140,10 @@ std::vector<std::string> withInput(std::vector<std::string> arguments) {
   for (const Json& bag : input.value("bags", Json::array())) {
     add(options.find("input", false), bag.at("bag").get<std::string>());
   }
-  const Json more_options = provenance.value("input_options", Json::object());
+  const std::optional<std::string> anew = valueOf(arguments, "--input", "-i");
+  const bool same_kind = !anew || fs::is_directory(*anew) == input.contains("folder");
+  const Json more_options =
+      same_kind ? provenance.value("input_options", Json::object()) : Json::object();
   for (const auto& [name, value] : more_options.items()) {
     if (const po::option_description* option = options.find_nothrow(name, false)) {
       add(*option, value.get<std::string>());

@@ -128,8 +128,8 @@ std::size_t writeBag(const SynthOptions& options) {
   }
   TemporaryFile temporary(bag);
   const synthetic::SyntheticSequence sequence(options.sequence);
-  // Noise, most of which LZ4 gives back as it was: the bag is a sixth larger without, and is read
-  // in less than half the time.
+  // Noise, most of which LZ4 gives back as it was: the bag is little larger without, and is read
+  // faster.
   BagWriter writer(temporary.path(), BagCompression::kNone);
   std::vector<std::optional<SequenceFrame>> ready(sequence.size());
   std::vector<StampedFile> entries;

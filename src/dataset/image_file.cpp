@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
 #include "evolin_ros/base/atomic_file.h"
 #include "evolin_ros/base/error.h"
+#include "evolin_ros/geometry/projection.h"
 
 namespace evolin {
 
@@ -156,17 +156,7 @@ cv::Mat readStoredDepth(const std::filesystem::path& file) {
 }
 
 cv::Mat readDepthImage(const std::filesystem::path& file, double depth_factor) {
-  const cv::Mat stored = readStoredDepth(file);
-  cv::Mat depth(stored.size(), CV_32FC1);
-  for (int row = 0; row < stored.rows; ++row) {
-    const std::uint16_t* from = stored.ptr<std::uint16_t>(row);
-    float* to = depth.ptr<float>(row);
-    std::transform(from, from + stored.cols, to, [depth_factor](std::uint16_t value) {
-      return value == 0 ? std::numeric_limits<float>::quiet_NaN()
-                        : static_cast<float>(value / depth_factor);
-    });
-  }
-  return depth;
+  return DepthMap(readStoredDepth(file), depth_factor).metres();
 }
 
 void writeImage(const std::filesystem::path& file, const cv::Mat& image,

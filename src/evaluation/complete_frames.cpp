@@ -2,7 +2,6 @@
 #include "evolin_ros/evaluation/complete_frames.h"
 
 #include <deque>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -17,27 +16,16 @@ namespace {
 /// Two seconds of a usual camera: what was not recorded by then was not recorded.
 constexpr std::size_t kMostAhead = 64;
 /// Depth may come more often than images.
-constexpr std::size_t kDepthsKept = 4 * kMostAhead;
+constexpr std::size_t kDepthsKept = 2 * kMostAhead;
+/// An image that is older than the one before it by less was swapped with it; by more, time jumped
+/// back, and what was recorded before belongs to another pass.
+constexpr Stamp kMostSwapped = Trajectory::kMaxGap;
 
 void require(bool offered, bool needed, const char* what) {
   if (needed && !offered) {
     throw UnavailableError(std::string("a plug-in needs ") + what + ", but the recording has no " +
                            what);
   }
-}
-
-/// As Frame::depth wants it.
-cv::Mat metresOf(const DepthMap& map) {
-  cv::Mat metres(map.size().height, map.size().width, CV_32FC1);
-  for (int y = 0; y < metres.rows; ++y) {
-    auto* const row = metres.ptr<float>(y);
-    for (int x = 0; x < metres.cols; ++x) {
-      const double depth = map.at(x, y);
-      row[x] = DepthMap::isDepth(depth) ? static_cast<float>(depth)
-                                        : std::numeric_limits<float>::quiet_NaN();
-    }
-  }
-  return metres;
 }
 
 class CompleteFrames : public PartReader {
@@ -69,8 +57,13 @@ class CompleteFrames : public PartReader {
     parts_.pop_front();
     if (auto* image = std::get_if<ImagePart>(&part)) {
       --images_ahead_;
-      fill(&image->frame);
+      if (filled_ == 0) {
+        fill(&image->frame);
+        depths_.trim(image->frame.stamp);
+        trajectory_.forgetBefore(image->frame.stamp);
+      }
     }
+    filled_ -= filled_ > 0 ? 1 : 0;
     return part;
   }
 
@@ -82,17 +75,24 @@ class CompleteFrames : public PartReader {
  private:
   void take(StreamPart part) {
     bool goes_on = true;
-    if (std::holds_alternative<ImagePart>(part)) {
+    if (const auto* image = std::get_if<ImagePart>(&part)) {
+      const Stamp stamp = image->frame.stamp;
+      if (stamp != 0) {  // else it could not be read so far
+        if (last_image_ && stamp + kMostSwapped < *last_image_) {
+          beginPass(stamp);
+        }
+        last_image_ = stamp;
+      }
+      since_image_.clear();
       ++images_ahead_;
     } else if (const auto* camera = std::get_if<Camera>(&part)) {
       camera_ = *camera;
-    } else if (const auto* depth = std::get_if<DepthPart>(&part)) {
-      if (needs_.depth) {
-        depths_.add(depth->stamp, depth->depth);
+    } else if (!std::holds_alternative<LineSet>(part)) {
+      keep(part);
+      since_image_.push_back(part);
+      if (since_image_.size() > kMostAhead) {
+        since_image_.pop_front();
       }
-      goes_on = wanted_.motion;
-    } else if (const auto* pose = std::get_if<StampedPose>(&part)) {
-      trajectory_.add(*pose);
       goes_on = wanted_.motion;
     }
     if (goes_on) {
@@ -100,10 +100,44 @@ class CompleteFrames : public PartReader {
     }
   }
 
+  /// Depth or a pose, for the images.
+  void keep(const StreamPart& part) {
+    if (const auto* pose = std::get_if<StampedPose>(&part)) {
+      trajectory_.add(*pose);
+    } else if (needs_.depth) {
+      const auto& depth = std::get<DepthPart>(part);
+      depths_.add(depth.stamp, depth.depth);
+    }
+  }
+
+  static Stamp stampOf(const StreamPart& part) {
+    const auto* pose = std::get_if<StampedPose>(&part);
+    return pose != nullptr ? pose->stamp : std::get<DepthPart>(part).stamp;
+  }
+
+  /// Images that wait get what there is: nothing of their time can come any more. What came since
+  /// the last of them may be of the new pass, whose first image has this `stamp`.
+  void beginPass(Stamp stamp) {
+    for (std::size_t i = filled_; i < parts_.size(); ++i) {
+      if (auto* image = std::get_if<ImagePart>(&parts_[i])) {
+        fill(&image->frame);
+      }
+    }
+    filled_ = parts_.size();
+    depths_ = StampedDepth(MotionOptions().max_time_difference, kDepthsKept);
+    trajectory_ = {};
+    const Stamp middle = stamp + (*last_image_ - stamp) / 2;
+    for (const StreamPart& part : since_image_) {
+      if (stampOf(part) < middle) {
+        keep(part);
+      }
+    }
+  }
+
   /// Whether nothing that the first part lacks can still come.
   bool isReady() {
     const auto* image = std::get_if<ImagePart>(&parts_.front());
-    if (image == nullptr || ended_ || images_ahead_ > kMostAhead) {
+    if (image == nullptr || filled_ > 0 || ended_ || images_ahead_ > kMostAhead) {
       return true;
     }
     const Stamp stamp = image->frame.stamp;
@@ -119,7 +153,7 @@ class CompleteFrames : public PartReader {
   void fill(Frame* frame) {
     const DepthMap* depth = nullptr;
     if (needs_.depth && depths_.find(frame->stamp, true, &depth) == Lookup::kFound) {
-      frame->depth = metresOf(*depth);
+      frame->depth = depth->metres();
     }
     if (needs_.pose) {
       frame->pose = trajectory_.at(frame->stamp);
@@ -136,7 +170,10 @@ class CompleteFrames : public PartReader {
   Trajectory trajectory_;
   std::optional<Camera> camera_;  ///< the newest
   std::deque<StreamPart> parts_;
-  std::size_t images_ahead_ = 0;  ///< in parts_
+  std::size_t images_ahead_ = 0;        ///< in parts_
+  std::size_t filled_ = 0;              ///< parts at the head of parts_ that lack nothing
+  std::deque<StreamPart> since_image_;  ///< depth and poses, the newest of them
+  std::optional<Stamp> last_image_;
   bool ended_ = false;
 };
 

@@ -47,17 +47,14 @@ bool FrontEnd::givesScores() const {
   return !detectors_.empty() && detectors_.front()->givesScores();
 }
 
-std::vector<std::string> FrontEnd::notes() const {
+std::string FrontEnd::note() const {
   MatchCounts sum;
   for (const std::shared_ptr<LineAssociator>& associator : associators_) {
     for (const auto& [what, count] : associator->counts()) {
       sum[what] += count;
     }
   }
-  if (sum.empty()) {
-    return {};
-  }
-  return {"matches of " + options_.matches_source + ": " + toText(sum)};
+  return sum.empty() ? "" : "matches of " + options_.matches_source + ": " + toText(sum);
 }
 
 void FrontEnd::process(std::vector<StreamPart> parts, FrontEndSink* sink) {

@@ -51,8 +51,8 @@ class Run : public FrontEndSink {
   std::size_t images() const { return images_; }
 
   std::vector<Report> reports(bool complete) {
-    for (const std::string& note : front_end_.notes()) {
-      evaluator_.addNote(note);
+    if (const std::string note = front_end_.note(); !note.empty()) {
+      evaluator_.addNote(note + (evaluator_.pass() > 1 ? " (of all passes)" : ""));
     }
     times_.measure(Stage::kReport, [&] {
       if (std::optional<Report> previous = evaluator_.previousReport()) {

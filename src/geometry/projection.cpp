@@ -2,6 +2,7 @@
 #include "evolin_ros/geometry/projection.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,18 @@ std::vector<double> DepthMap::at(const std::vector<cv::Point>& pixels) const {
   std::vector<double> metres(pixels.size());
   for (std::size_t index = 0; index < pixels.size(); ++index) {
     metres[index] = at(pixels[index].x, pixels[index].y);
+  }
+  return metres;
+}
+
+cv::Mat DepthMap::metres() const {
+  cv::Mat metres(image_.size(), CV_32FC1);
+  for (int y = 0; y < metres.rows; ++y) {
+    auto* const row = metres.ptr<float>(y);
+    for (int x = 0; x < metres.cols; ++x) {
+      const double depth = at(x, y);
+      row[x] = isDepth(depth) ? static_cast<float>(depth) : std::numeric_limits<float>::quiet_NaN();
+    }
   }
   return metres;
 }

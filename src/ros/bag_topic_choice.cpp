@@ -109,18 +109,23 @@ class Chooser {
   }
 
   std::vector<std::string> withContent(Content content) const {
-    std::vector<std::string> names;
+    std::vector<const BagTopic*> found;
+    std::set<std::string> found_names;
     for (const BagTopic& topic : topics_) {
       if (topic.messages > 0 && contentOf(bag_, topic) == content) {
-        names.push_back(topic.name);
+        found.push_back(&topic);
+        found_names.insert(topic.name);
       }
     }
-    // What a transport made of another candidate (/depth/compressedDepth of /depth) shows the same.
-    const std::set<std::string> found(names.begin(), names.end());
-    names.erase(
-        std::remove_if(names.begin(), names.end(),
-                       [&](const std::string& name) { return found.count(parentOf(name)) != 0; }),
-        names.end());
+    // What a transport made of another candidate (/depth/compressedDepth of /depth) shows the same;
+    // a raw topic below another one (/cam/left of /cam) does not.
+    std::vector<std::string> names;
+    for (const BagTopic* topic : found) {
+      const bool compressed = topic->type == typeOf<sensor_msgs::CompressedImage>();
+      if (!compressed || found_names.count(parentOf(topic->name)) == 0) {
+        names.push_back(topic->name);
+      }
+    }
     return names;
   }
 

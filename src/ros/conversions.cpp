@@ -296,16 +296,6 @@ Frame toFrame(const sensor_msgs::ImageConstPtr& message) {
   return frame;
 }
 
-cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor) {
-  const cv::Mat stored = storedDepth(message);
-  cv::Mat depth;
-  stored.convertTo(depth, CV_32F, stored.type() == CV_32FC1 ? 1 : 1 / depth_factor);
-  // Drivers write 0, NaN or an infinity where they saw nothing.
-  const cv::Mat none = ~((depth > 0) & (depth <= std::numeric_limits<float>::max()));
-  depth.setTo(std::numeric_limits<float>::quiet_NaN(), none);
-  return depth;
-}
-
 DepthMap toDepthMap(const sensor_msgs::ImageConstPtr& message, double depth_factor) {
   return DepthMap(storedDepth(message), depth_factor);
 }

@@ -49,12 +49,8 @@ geometry_msgs::Pose toMessage(const Pose& pose);
 /// cannot be.
 Frame toFrame(const sensor_msgs::ImageConstPtr& message);
 
-/// 16UC1 (divided by `depth_factor`) or 32FC1 (metres) as CV_32FC1 metres with NaN where there is
-/// none (0, negative or not finite). Throws Error for another encoding or a malformed image.
-cv::Mat toDepth(const sensor_msgs::ImageConstPtr& message, double depth_factor);
-
-/// The same as stored, without the rounding to single precision: units of a metre /
-/// `depth_factor`, or metres.
+/// 16UC1, units of a metre / `depth_factor`, or 32FC1, metres, as stored. Throws Error for another
+/// encoding or a malformed image.
 DepthMap toDepthMap(const sensor_msgs::ImageConstPtr& message, double depth_factor);
 
 /// Opaque.

@@ -3,110 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <random>
-#include <set>
 #include <thread>
 
-#include "benchmark_command.h"
 #include "child_process.h"
-#include "evolin_ros/inference/network.h"
 #include "render_command.h"
 #include "run_command.h"
 #include "synth_command.h"
-#include "test/cli/outcome.h"
-#include "test/inference/onnx_bytes.h"
-#include "test/support/environment.h"
-#include "test/support/temporary_folder.h"
+#include "test/cli/benchmark_fixture.h"
 
 namespace evolin::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using test::BenchmarkTest;
+using test::figuresOf;
 using test::Outcome;
-
-Json readJson(const fs::path& file) {
-  std::ifstream stream(file);
-  return Json::parse(stream);
-}
-
-/// What a report found, without times and places.
-Json figuresOf(Json report) {
-  report.erase("timing");
-  report.erase("provenance");
-  return report;
-}
-
-class BenchmarkTest : public ::testing::Test {
- protected:
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  void writeMatrix(const std::string& text) const { folder_.write("matrix.yaml", text); }
-
-  std::vector<std::string> command(const std::string& output,
-                                   const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {"benchmark", "--config", path("matrix.yaml"), "--output",
-                                          path(output)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-  }
-
-  Outcome run(const std::string& output, const std::vector<std::string>& more = {}) const {
-    return test::runCaptured({benchmarkCommand()}, command(output, more));
-  }
-
-  Json cell(const std::string& output, const std::string& id) const {
-    return readJson(folder_.path() / output / "cells" / id / "cell.json");
-  }
-
-  Json report(const std::string& output, const std::string& id) const {
-    return readJson(folder_.path() / output / "cells" / id / "report.json");
-  }
-
-  std::map<std::string, std::string> states(const std::string& output) const {
-    std::map<std::string, std::string> states;
-    const Json matrix = readJson(folder_.path() / output / "matrix.json");
-    for (const Json& cell : matrix.at("cells")) {
-      states[cell.at("id")] = cell.at("state");
-    }
-    return states;
-  }
-
-  /// The figures of all cells, and which cells there are.
-  std::map<std::string, Json> figures(const std::string& output) const {
-    std::map<std::string, Json> figures;
-    for (const auto& [id, state] : states(output)) {
-      EXPECT_EQ(state, "finished") << id;
-      figures[id] = figuresOf(report(output, id));
-    }
-    return figures;
-  }
-
-  /// All but the synthetic sequences' folders, hidden or not.
-  std::set<std::string> entries(const std::string& folder) const {
-    std::set<std::string> names;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_.path() / folder)) {
-      if (entry.is_directory()) {
-        names.insert(entry.path().filename().string());
-      }
-    }
-    return names;
-  }
-
-  test::TemporaryFolder folder_;
-  const std::string small_ =
-      "evaluation: {bootstrap: 20, repeatability_steps: [1]}\n"
-      "sequences:\n- {name: room, synthetic: {frames: 6, width: 160, height: 120}}\n"
-      "detectors:\n- {name: lsd, label: LSD}\n- {name: segments, plugin: elsed}\n"
-      "associators: [lbd]\n"
-      "settings:\n"
-      "- {name: lines, metrics: [detection, heatmap, repeatability]}\n"
-      "- {name: truth, metrics: [association]}\n"
-      "- {name: poses, metrics: [association, pose], associate: detected}\n";
-};
+using test::readJson;
 
 TEST_F(BenchmarkTest, ACellIsARunOfItsOwn) {
   writeMatrix(small_);
@@ -273,77 +186,6 @@ TEST_F(BenchmarkTest, WhatFailsAndWhatIsNotThereIsToldAndKeepsNothingBack) {
   fs::remove_all(path("out/detections"));
   const Outcome anew = render("room--lsd--none--s");
   EXPECT_EQ(anew.status, kExitDone) << anew.err;
-}
-
-TEST_F(BenchmarkTest, ANetworkWithoutItsFileIsUnavailableAndKeepsNothingBack) {
-  const test::Variable models("EVOLIN_MODELS", path("models"));
-  const test::Variable home("ROS_HOME", path("ros"));
-  writeMatrix(
-      "sequences: [{name: room, synthetic: {frames: 3, width: 96, height: 72}}]\n"
-      "detectors: [lsd, mlsd]\nsettings: [{name: s, metrics: [detection]}]\n");
-  const Outcome outcome = run("out");
-  EXPECT_EQ(outcome.status, kExitDone) << outcome.err;
-  EXPECT_EQ(states("out"),
-            (std::map<std::string, std::string>{{"room--lsd--none--s", "finished"},
-                                                {"room--mlsd--none--s", "unavailable"}}));
-  EXPECT_NE(cell("out", "room--mlsd--none--s").at("error").get<std::string>().find("mlsd"),
-            std::string::npos);
-  if (whyNoNetworks().empty()) {
-    EXPECT_NE(outcome.out.find("there is no file 'mlsd_tiny_512.onnx'"), std::string::npos)
-        << outcome.out;
-  }
-
-  // What was recorded of it takes its place.
-  fs::create_directories(path("theirs"));
-  fs::copy(path("out/detections/room--lsd"), path("theirs/room"), fs::copy_options::recursive);
-  writeMatrix(
-      "sequences: [{name: room, synthetic: {frames: 3, width: 96, height: 72}}]\n"
-      "detectors: [lsd, {name: mlsd, plugin: mlsd, recorded: 'theirs/{sequence}'}]\n"
-      "settings: [{name: s, metrics: [detection]}]\n");
-  EXPECT_EQ(run("out").status, kExitDone);
-  EXPECT_EQ(report("out", "room--mlsd--none--s").at("detection").at("entries"),
-            report("out", "room--lsd--none--s").at("detection").at("entries"));
-}
-
-TEST_F(BenchmarkTest, ANetworksFileIsPartOfTheContent) {
-  if (!whyNoNetworks().empty()) {
-    GTEST_SKIP() << whyNoNetworks();
-  }
-  const test::Variable models("EVOLIN_MODELS", path("models"));
-  const test::Variable home("ROS_HOME", path("ros"));
-  const auto writeModel = [this](const std::string& file, float weight) {
-    namespace onnx = test::onnx;
-    const std::string kernel = onnx::bytes(1, "kernel_shape") + onnx::number(8, 1) +
-                               onnx::number(8, 1) + onnx::number(20, 7);
-    const std::string graph =
-        onnx::bytes(1, onnx::node("Conv", {"image", "weights"}, "maps") + onnx::bytes(5, kernel)) +
-        onnx::bytes(2, "test") +
-        onnx::bytes(5, onnx::weight("weights", {5, 3, 1, 1}, std::vector<float>(15, weight))) +
-        onnx::bytes(11, onnx::value("image", {1, 3, 16, 16})) +
-        onnx::bytes(12, onnx::value("maps", {1, 5, 16, 16}));
-    folder_.write("models/" + file, onnx::model(graph));
-  };
-  writeMatrix(
-      "sequences: [{name: room, synthetic: {frames: 3, width: 96, height: 72}}]\n"
-      "detectors: [mlsd, {name: other, plugin: mlsd, parameters: {model: other.onnx}}]\n"
-      "settings: [{name: s, metrics: [detection]}]\n");
-  const auto hashes = [this] {
-    const Outcome outcome = run("out", {"--list", "--format", "json"});
-    const Json list = Json::parse(outcome.out);
-    EXPECT_EQ(list.at("cells").at(0).at("state"), "pending") << outcome.out;
-    return std::make_pair(list.at("cells").at(0).at("content_hash"),
-                          list.at("cells").at(1).at("content_hash"));
-  };
-  writeModel("mlsd_tiny_512.onnx", 0);
-  writeModel("other.onnx", 0);
-  const auto before = hashes();
-  EXPECT_EQ(hashes(), before);
-  writeModel("mlsd_tiny_512.onnx", 1);
-  const auto after = hashes();
-  EXPECT_NE(after.first, before.first);
-  EXPECT_EQ(after.second, before.second) << "it names another file";
-  writeModel("other.onnx", 1);
-  EXPECT_NE(hashes().second, before.second);
 }
 
 TEST_F(BenchmarkTest, ListAndCellLetOthersRunTheMatrix) {

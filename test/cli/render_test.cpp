@@ -6,6 +6,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "bag_writer.h"
 #include "evolin_ros/drawing/evaluation_view.h"
 #include "render_command.h"
 #include "run_command.h"
@@ -111,6 +112,32 @@ TEST_F(RenderTest, TheRunsOptionsOfTheInputAreTakenOver) {
       call({"render", "--run=" + path("run"), "--output", path("out"), "-q", "--duration=0.05"});
   ASSERT_EQ(outcome.status, kExitDone) << outcome.err;
   EXPECT_NE(outcome.out.find("2 pictures"), std::string::npos) << "its own goes over the run's";
+}
+
+TEST_F(RenderTest, OptionsOfAFolderAreNotTakenOverForABag) {
+  makeRun();
+  test::DrawnSequence sequence;
+  sequence.frames = 4;
+  BagWriter writer(path("data.bag"));
+  for (const SequenceFrame& frame : test::drawSequence(sequence)) {
+    writer.add(frame);
+  }
+  writer.close();
+  ASSERT_EQ(call({"run", "--input", path("data"), "--pose-offset", "0", "--duration", "0.09",
+                  "--detector", "hough_p", "--metrics", "detection", "--bootstrap", "0", "-q",
+                  "--output", path("run")})
+                .status,
+            kExitDone);
+  for (const std::string& input : {"--input=" + path("data.bag"), "-i" + path("data.bag")}) {
+    const Outcome outcome =
+        call({"render", "--run", path("run"), "--output", path("out"), "-q", input});
+    EXPECT_EQ(outcome.status, kExitDone) << outcome.err;
+    EXPECT_NE(outcome.out.find("4 pictures"), std::string::npos) << outcome.out;
+  }
+  // Another folder is read as the run read its own.
+  const Outcome outcome = call(
+      {"render", "--run", path("run"), "--output", path("out"), "-q", "--input", path("data")});
+  EXPECT_NE(outcome.out.find("3 pictures"), std::string::npos) << outcome.out;
 }
 
 TEST_F(RenderTest, RefusalsNameWhatIsWrong) {

@@ -18,6 +18,7 @@
 #include "synth_command.h"
 #include "test/cli/outcome.h"
 #include "test/support/drawn_sequence.h"
+#include "test/support/environment.h"
 #include "test/support/temporary_folder.h"
 #include "validate_command.h"
 
@@ -120,6 +121,32 @@ TEST_F(RunTest, ABagWithoutWhatAnAssociatorNeedsIsRefusedByName) {
                        "hough_p", "--associator", "oracle", "--metrics", "association"});
   EXPECT_EQ(refused.status, kExitFailed);
   for (const char* const word : {"data.bag", "a plug-in needs depth", "has no depth"}) {
+    EXPECT_NE(refused.err.find(word), std::string::npos) << refused.err;
+  }
+}
+
+TEST_F(RunTest, ABagWithoutACameraIsRefusedWhereThatAloneIsNeeded) {
+  const char* const before = std::getenv("ROS_PACKAGE_PATH");
+  const test::Variable packages(
+      "ROS_PACKAGE_PATH",
+      std::string(EVOLIN_SOURCE_DIR "/test/plugins:") + (before == nullptr ? "" : before));
+  const auto detect = [this](const std::string& bag) {
+    return test::runCaptured({runCommand()},
+                             {"run", "--input", path(bag), "--output", path("out"), "--detector",
+                              "test_camera", "--metrics", "detection", "--quiet"});
+  };
+  std::vector<SequenceFrame> frames = test::drawSequence();
+  writeBag(frames, path("data.bag"));
+  const Outcome outcome = detect("data.bag");
+  ASSERT_EQ(outcome.status, kExitDone) << outcome.err;
+  EXPECT_EQ(report("out").at("coverage").at("evaluated"), 12);
+  for (SequenceFrame& frame : frames) {
+    frame.frame.camera.reset();
+  }
+  writeBag(frames, path("bare.bag"));
+  const Outcome refused = detect("bare.bag");
+  EXPECT_EQ(refused.status, kExitFailed);
+  for (const char* const word : {"bare.bag", "a plug-in needs camera", "has no camera"}) {
     EXPECT_NE(refused.err.find(word), std::string::npos) << refused.err;
   }
 }
@@ -262,9 +289,32 @@ TEST_F(RunTest, TimeThatJumpsBackBeginsAPassOfItsOwn) {
     return detector;
   };
   options.front_end.lines_source = "hough_p";
-  const SequenceRunResult result = runSequence(
-      options, &reader, [](std::size_t) {}, [] { return false; });
+  class Counting : public LineAssociator {
+   public:
+    void configure(const YAML::Node& /*parameters*/) override {}
+    LineMatches match(const FrameLines& /*first*/, const FrameLines& /*second*/) override {
+      ++pairs_;
+      return {};
+    }
+    MatchCounts counts() const override { return {{"pairs", pairs_}}; }
+
+   private:
+    std::size_t pairs_ = 0;
+  };
+  options.front_end.make_associator = [] { return std::make_shared<Counting>(); };
+  options.front_end.matches_source = "counting";
+  const auto runOver = [&options](PartReader* parts) {
+    return runSequence(
+        options, parts, [](std::size_t) {}, [] { return false; });
+  };
+  TwoPasses one_pass(frames);
+  EXPECT_EQ(runOver(&one_pass).reports.at(0).notes,
+            std::vector<std::string>{"matches of counting: 4 pairs"});
+  const SequenceRunResult result = runOver(&reader);
   ASSERT_EQ(result.reports.size(), 2U);
+  EXPECT_EQ(result.reports[0].notes, std::vector<std::string>());
+  EXPECT_EQ(result.reports[1].notes,
+            std::vector<std::string>{"matches of counting: 8 pairs (of all passes)"});
   EXPECT_EQ(result.reports[0].pass, 1);
   EXPECT_EQ(result.reports[0].coverage.evaluated, 5U);
   EXPECT_EQ(result.reports[1].pass, 2);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -16,10 +17,14 @@ constexpr Stamp kMillisecond = kNanosecondsPerSecond / 1000;
 
 class Parts : public PartReader {
  public:
-  Parts(std::vector<StreamPart> parts, const Needs& offers)
-      : parts_(std::move(parts)), offers_(offers) {}
+  /// Counts in `*read` what was asked for.
+  Parts(std::vector<StreamPart> parts, const Needs& offers, std::size_t* read = nullptr)
+      : parts_(std::move(parts)), offers_(offers), read_(read) {}
 
   std::optional<StreamPart> next() override {
+    if (read_ != nullptr) {
+      ++*read_;
+    }
     return next_ < parts_.size() ? std::optional<StreamPart>(parts_[next_++]) : std::nullopt;
   }
   std::size_t images() const override { return 0; }
@@ -31,6 +36,7 @@ class Parts : public PartReader {
   std::vector<StreamPart> parts_;
   std::size_t next_ = 0;
   Needs offers_;
+  std::size_t* read_;
 };
 
 ImagePart image(Stamp stamp) {
@@ -112,7 +118,8 @@ TEST(CompleteFrames, DoNotReadAheadForEverOrTakeDepthOfAnotherTime) {
     recorded.emplace_back(image(i * 33 * kMillisecond));
   }
   std::size_t asked = 0;
-  auto source = std::make_unique<Parts>(recorded, Needs{true, true, true});
+  std::size_t read = 0;
+  auto source = std::make_unique<Parts>(recorded, Needs{true, true, true}, &read);
   const auto reader = completeFrames(std::move(source), {true, true, false}, {});
   bool found = false;
   for (; !found; ++asked) {
@@ -125,11 +132,81 @@ TEST(CompleteFrames, DoNotReadAheadForEverOrTakeDepthOfAnotherTime) {
     }
   }
   EXPECT_EQ(asked, 3U);
+  EXPECT_LE(read, 2U + 66U);
   std::size_t rest = 0;
   while (reader->next()) {
     ++rest;
   }
   EXPECT_EQ(rest, 189U);
+}
+
+/// Image i of a pass of one image a 33 ms, with the depth i + `first` (in metres) and the pose
+/// x = i + `first`, recorded behind it.
+void addPass(Stamp begin, int images, int first, std::vector<StreamPart>* parts) {
+  for (int i = 0; i < images; ++i) {
+    const Stamp stamp = begin + i * 33 * kMillisecond;
+    parts->emplace_back(image(stamp));
+    parts->emplace_back(depth(stamp, (i + first) * 100));
+    parts->emplace_back(pose(stamp, i + first));
+  }
+}
+
+void expectImages(const std::vector<StreamPart>& parts, const std::vector<int>& expected) {
+  std::vector<int> found;
+  for (const StreamPart& part : parts) {
+    if (const auto* image = std::get_if<ImagePart>(&part)) {
+      const Frame& frame = image->frame;
+      ASSERT_FALSE(frame.depth.empty()) << "image " << found.size();
+      ASSERT_TRUE(frame.pose.has_value()) << "image " << found.size();
+      EXPECT_EQ(std::lround(frame.depth.at<float>(1, 1) * 10), frame.pose->translation.x());
+      found.push_back(static_cast<int>(frame.pose->translation.x()));
+    }
+  }
+  EXPECT_EQ(found, expected);
+}
+
+std::vector<int> numbers(int first, int count) {
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
+TEST(CompleteFrames, GiveEveryPassItsOwnWhenTimeJumpsBack) {
+  constexpr int kMany = 300;  // more than are kept
+  std::vector<StreamPart> recorded;
+  addPass(kNanosecondsPerSecond, kMany, 1, &recorded);
+  addPass(kNanosecondsPerSecond, kMany, 1 + kMany, &recorded);
+  const std::vector<StreamPart> parts = read(recorded, {true, false, true});
+  EXPECT_EQ(parts.size(), recorded.size());
+  expectImages(parts, numbers(1, 2 * kMany));
+}
+
+TEST(CompleteFrames, GiveImagesThatWaitWhatThereIsBeforeAPassBegins) {
+  const Stamp later = 100 * kNanosecondsPerSecond;
+  // The last image of the first pass would wait for a pose behind it, the first one of the second
+  // has depth and pose before it.
+  const std::vector<StreamPart> parts =
+      read({pose(later, 1), image(later), depth(later + kMillisecond, 100),
+            image(later + 50 * kMillisecond), depth(later + 50 * kMillisecond, 200),
+            depth(kNanosecondsPerSecond, 300), pose(kNanosecondsPerSecond, 3),
+            image(kNanosecondsPerSecond)},
+           {true, false, true}, false);
+  ASSERT_EQ(parts.size(), 3U);
+  const Frame& waiting = std::get<ImagePart>(parts[1]).frame;
+  EXPECT_EQ(waiting.depth.at<float>(1, 1), 0.2F);
+  EXPECT_FALSE(waiting.pose.has_value());
+  const Frame& first = std::get<ImagePart>(parts[2]).frame;
+  ASSERT_FALSE(first.depth.empty());
+  EXPECT_EQ(first.depth.at<float>(1, 1), 0.3F);
+  ASSERT_TRUE(first.pose.has_value());
+  EXPECT_EQ(first.pose->translation.x(), 3);
+}
+
+TEST(CompleteFrames, SwappedImagesAreNoJumpOfTime) {
+  std::vector<StreamPart> recorded;
+  addPass(kNanosecondsPerSecond, 12, 1, &recorded);
+  std::swap(recorded[3 * 5], recorded[3 * 6]);
+  expectImages(read(recorded, {true, false, true}), {1, 2, 3, 4, 5, 7, 6, 8, 9, 10, 11, 12});
 }
 
 TEST(CompleteFrames, RefuseARecordingWithoutWhatIsNeeded) {

@@ -60,6 +60,24 @@ TEST(DepthMap, HasNoneWhereNothingWasMeasured) {
   EXPECT_EQ(depth.at({{5, 0}, {0, 0}, {-1, -1}, {5, 0}}), (std::vector<double>{1, 0, 0, 1}));
 }
 
+TEST(DepthMap, GivesMetresRoundedOnceAndNanForNone) {
+  cv::Mat units(2, 3, CV_16UC1, cv::Scalar(0));
+  units.at<std::uint16_t>(1, 2) = 5001;
+  const cv::Mat of_units = DepthMap(units, 1000).metres();
+  ASSERT_EQ(of_units.type(), CV_32FC1);
+  ASSERT_EQ(of_units.size(), cv::Size(3, 2));
+  EXPECT_EQ(of_units.at<float>(1, 2), 5.001F);
+  EXPECT_TRUE(std::isnan(of_units.at<float>(0, 0)));
+  cv::Mat stored(1, 4, CV_32FC1, cv::Scalar(1.25));
+  stored.at<float>(0, 1) = -2;
+  stored.at<float>(0, 2) = std::numeric_limits<float>::infinity();
+  const cv::Mat metres = DepthMap(stored).metres();
+  EXPECT_EQ(metres.at<float>(0, 0), 1.25F);
+  EXPECT_TRUE(std::isnan(metres.at<float>(0, 1)));
+  EXPECT_TRUE(std::isnan(metres.at<float>(0, 2)));
+  EXPECT_EQ(stored.at<float>(0, 1), -2) << "a copy";
+}
+
 TEST(DepthMap, RefusesWhatIsNoDepth) {
   test::expectError([] { DepthMap{cv::Mat()}; }, {"empty"});
   test::expectError([] { DepthMap{cv::Mat(2, 2, CV_8UC3)}; }, {"3 channels", "8 bits"});

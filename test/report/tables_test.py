@@ -196,8 +196,29 @@ class Benchmark(TablesTest):
         cells = [({"id": "a", "sequence": "room", "detector": "lsd", "associator": "lbd",
                    "state": "pending"}, None)]
         made = self.make(self.benchmark("root", cells))
-        self.assertEqual(self.cell(made, "detection", "sP5")[0].reason, "pending: not run yet")
+        self.assertEqual(made.tables, [])
+        self.assertIn("1 run (1 pending)", made.summary())
+        for to_text in (formats.to_markdown, formats.to_latex, formats.to_csv, formats.to_json):
+            self.assertTrue(to_text(made))
+        self.assertIn("Pending, in no table: a (not run yet).", made.notes())
 
+    def test_a_cell_that_is_still_to_be_run_is_listed_and_no_row(self):
+        def entry(name, detector, associator, setting, state="finished"):
+            return {"id": name, "sequence": "room", "detector": detector, "associator": associator,
+                    "setting": setting, "state": state}
+        cells = [(entry("1", "lsd", "none", "lines"), report(association=None)),
+                 (entry("2", "none", "lbd", "matches"), report(detection=None)),
+                 (entry("3", "lsd", "lbd", "front_end", "pending"), None),
+                 (entry("4", "elsed", "none", "lines", "pending"), None)]
+        made = self.make(self.benchmark("root", cells))
+        for table in made.tables:
+            self.assertEqual({row.run.id for row in table.rows} - {"1", "2"}, set(), table.name)
+        self.assertEqual([row.keys for row in self.table(made, "association").rows],
+                         [["lbd", "-"]])
+        self.assertIn("2 finished, 2 pending", made.summary())
+        self.assertIn("Pending, in no table: 3 (not run yet); 4 (not run yet).", made.notes())
+        self.assertEqual([(name, values[0]) for name, values in made.origins()][2:],
+                         [("3", "pending: not run yet"), ("4", "pending: not run yet")])
 
     def changed(self, state, in_matrix, in_cell):
         """A cell whose folder holds a finished report, of another content or the same."""

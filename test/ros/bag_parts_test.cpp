@@ -260,6 +260,16 @@ TEST_F(BagPartsTest, WhatATransportMadeOfATopicIsNoSecondTopic) {
   EXPECT_EQ(readAll({path("both.bag")}, BagPartsOptions()).depths.size(), 1U);
 }
 
+TEST_F(BagPartsTest, ARawTopicBelowAnotherIsASecondTopic) {
+  rosbag::Bag bag(path("two.bag").string(), rosbag::bagmode::Write);
+  for (const char* const topic : {"/cam", "/cam/left"}) {
+    bag.write(topic, headerOf(0).stamp, *imageOf(0, "bgr8"));
+  }
+  bag.close();
+  expectError([&] { readAll({path("two.bag")}, BagPartsOptions()); },
+              {"2 topics with images", "/cam, /cam/left", "--image-topic"});
+}
+
 TEST_F(BagPartsTest, CompressedDepthThatCannotBeReadIsNamed) {
   std::vector<std::uint8_t> grey;
   cv::imencode(".png", cv::Mat(4, 4, CV_8UC1, cv::Scalar(9)), grey);

@@ -161,7 +161,7 @@ TEST_F(BagOfFour, HoldsDepthAtItsOwnStamp) {
     EXPECT_EQ(ros_shell::fromRos(message.header.stamp), stamp);
     EXPECT_EQ(message.header.frame_id, names::kCameraFrame);
     expectImage(message, frame(i).depth, "32FC1");
-    const cv::Mat back = ros_shell::toDepth(depths.at(stamp), 5000);
+    const cv::Mat back = ros_shell::toDepthMap(depths.at(stamp), 5000).metres();
     EXPECT_TRUE(std::isnan(back.at<float>(3, 5)));
     EXPECT_EQ(back.at<float>(0, 0), frame(i).depth.at<float>(0, 0));
     EXPECT_EQ(infos.at(stamp)->K[0], 30 + i);

@@ -281,12 +281,20 @@ TEST(OnlineAdapters, LinesOfOpencvAppsComeAndGo) {
   EXPECT_EQ(array.lines[1].id, kNoId);
 
   ros::param::set(adapter.space() + "/back/direction", "to");
+  ros::param::set(adapter.space() + "/back/diagnostic_period", 0.1);
+  ros::param::set(adapter.space() + "/back/warn_after", 0.1);
+  const DiagnosticsReader diagnostics(adapter.space() + "/back");
+  const LogReader log;
   Collector<opencv_apps::LineArrayStamped> back(adapter.space() + "/back_lines");
   ASSERT_TRUE(adapter.manager().load("back", "evolin_ros/OpencvAppsLines",
                                      {{"opencv_apps_lines", "back_lines"}}));
   ASSERT_TRUE(back.waitForPublisher());
+  EXPECT_TRUE(log.waitFor(rosgraph_msgs::Log::WARN, {"/lines", "Remap 'lines'"}));
   adapter.send(foreign);
   ASSERT_TRUE(back.waitForCount(1));
+  EXPECT_TRUE(diagnostics.waitFor("latency", [](const DiagnosticsReader::Status& status) {
+    return DiagnosticsReader::valueOf(status, "results") == "1";
+  }));
   EXPECT_EQ(back.messages()[0].header.frame_id, "usb_cam");
   ASSERT_EQ(back.messages()[0].lines.size(), 2U);
   EXPECT_EQ(back.messages()[0].lines[1].pt2.y, 5.125);

@@ -5,6 +5,8 @@
 #include <future>
 #include <opencv2/core.hpp>
 
+#include "conversions.h"
+#include "evolin_ros/LineArray.h"
 #include "online_stream.h"
 #include "test/support/drawn_sequence.h"
 
@@ -71,6 +73,44 @@ TEST(OnlineFinish, WaitsNoLongerThanThereIsSomebodyWhoCouldSend) {
   const nlohmann::json report = bench.report();
   EXPECT_EQ(report.at("complete"), true);
   expectCoverage(report, 13, 12, {{"unmatched", 1}});
+}
+
+TEST(OnlineFinish, WaitsForTheFirstLinesAgainAfterAReset) {
+  setEndlessDrainTimeout();
+  BenchOptions options;
+  options.associator = "";
+  Bench bench(options);
+  std::vector<SequenceFrame> frames = drawSequence();
+  frames.resize(3);
+  ASSERT_TRUE(bench.play(frames));
+  bench.call("finish");
+  ASSERT_TRUE(bench.manager().unload("detector"));
+  bench.call("reset");
+  for (const SequenceFrame& frame : frames) {
+    bench.publisher().sendGroundTruth(frame);
+  }
+  // Whose lines may begin at any time; that the old ones' sender is gone says nothing of them.
+  std::future<std::string> finish =
+      std::async(std::launch::async, [&] { return bench.call("finish"); });
+  EXPECT_EQ(finish.wait_for(std::chrono::milliseconds(1500)), std::future_status::timeout);
+  ros::Publisher lines =
+      ros::NodeHandle(bench.space()).advertise<evolin_ros::LineArray>("lines", 10);
+  // The bench listens, too.
+  ASSERT_TRUE(waitFor("the evaluator", [&] { return lines.getNumSubscribers() == 2; }));
+  for (const SequenceFrame& frame : frames) {
+    LineSet set;
+    set.stamp = frame.frame.stamp;
+    set.source = "another";
+    set.width = frame.frame.image.cols;
+    set.height = frame.frame.image.rows;
+    set.lines = *frame.ground_truth;
+    lines.publish(ros_shell::toMessage(set));
+  }
+  ASSERT_EQ(finish.wait_for(std::chrono::seconds(30)), std::future_status::ready);
+  const nlohmann::json report = bench.report();
+  EXPECT_EQ(report.at("complete"), true);
+  EXPECT_EQ(report.at("detection").at("source"), "another");
+  EXPECT_EQ(report.at("coverage").at("evaluated"), 3);
 }
 
 }  // namespace

@@ -1,10 +1,14 @@
 // The evaluator's services and topics: what they answer and when.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <future>
 
 #include "conversions.h"
+#include "evaluation_session.h"
 #include "evolin_ros/AssociationMetrics.h"
 #include "evolin_ros/Coverage.h"
 #include "evolin_ros/DetectionMetrics.h"
@@ -183,6 +187,51 @@ TEST(OnlineServices, AnIdleEvaluatorSavesByItself) {
   ASSERT_TRUE(waitFor("the report of an idle evaluator",
                       [&] { return std::filesystem::exists(bench.folder() / "report.json"); }));
   expectCoverage(bench.report(), 12, 12);
+}
+
+TEST(OnlineServices, SavingNeverWaitsForAnotherThatWrites) {
+  const TemporaryFolder folder;
+  ros_shell::EvaluatorOptions options;
+  options.output_dir = (folder.path() / "results").string();
+  options.idle_timeout = 0;
+  std::promise<void> writes;
+  std::promise<void> go_on;
+  std::atomic<int> errors{0};
+  ros_shell::EvaluationSession::Log log;
+  log.warning = [](const std::string& /*text*/) {};
+  log.error = [&](const std::string& /*text*/) {
+    if (errors++ == 0) {
+      writes.set_value();
+      go_on.get_future().wait();
+    }
+  };
+  ros::NodeHandle handle(testNamespace());
+  const ros::NodeHandle private_handle(testNamespace() + "/evaluator");
+  ros_shell::EvaluationSession session(handle, private_handle, options, "/evaluator", log);
+  std_msgs::Header header;
+  header.stamp = ros::Time(5);
+  session.take(header, [](StreamEvaluator* evaluator) { return evaluator->addImage(5000000000); });
+  // A folder that is none any more: the first one to save has something to tell, and is held there.
+  std::filesystem::remove_all(options.output_dir);
+  std::ofstream(options.output_dir) << "in the way";
+  std::future<void> first = std::async(std::launch::async, [&] { session.saveChanges(); });
+  ASSERT_EQ(writes.get_future().wait_for(std::chrono::seconds(30)), std::future_status::ready);
+  std::future<void> others = std::async(std::launch::async, [&] {
+    session.saveChanges();
+    session.saveWhenIdle();
+  });
+  EXPECT_EQ(others.wait_for(std::chrono::seconds(30)), std::future_status::ready);
+  EXPECT_EQ(first.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
+  go_on.set_value();
+  first.get();
+  others.get();
+  std::filesystem::remove(options.output_dir);
+  session.saveChanges();
+  EXPECT_EQ(readReport(std::filesystem::path(options.output_dir) / "report.json")
+                .at("coverage")
+                .at("seen"),
+            1)
+      << "what could not be written before is not forgotten";
 }
 
 }  // namespace

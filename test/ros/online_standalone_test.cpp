@@ -97,8 +97,11 @@ TEST(OnlineStandalone, PlainNodesWork) { expectWholeChain(plainNode); }
 /// The adapters and viewers, which are no part of the chain.
 TEST(OnlineStandalone, EveryPlainNodeRunsUntilItIsInterrupted) {
   const std::string space = testNamespace();
-  for (const std::string program :
-       {"line_viewer_node", "lines_3d_node", "marker_lines_node", "point_cloud_lines_node"}) {
+  for (const std::string program : {"line_viewer_node", "lines_3d_node", "marker_lines_node",
+#ifdef EVOLIN_HAS_OPENCV_APPS
+                                    "opencv_apps_lines_node",
+#endif
+                                    "point_cloud_lines_node"}) {
     const DiagnosticsReader diagnostics(space + "/" + program);
     Process process({"rosrun", "evolin_ros", program, "__name:=" + program, "__ns:=" + space});
     EXPECT_TRUE(diagnostics.waitFor("inputs", [](const auto&) { return true; })) << program;

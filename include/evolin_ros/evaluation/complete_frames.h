@@ -12,7 +12,8 @@ namespace evolin {
 /// depth image nearest in time within MotionOptions::max_time_difference, the pose at the image's
 /// stamp (see Trajectory::at()), the newest camera. It reads ahead, by 64 images at most,
 /// as all of that may be recorded behind the image. A frame for which the recording has none goes
-/// without it. Depth and poses go on as parts of their own only where `wanted` has them.
+/// without it. Where the time of the images jumps back, a pass begins whose images get nothing of
+/// the one before it. Depth and poses go on as parts of their own only where `wanted` has them.
 ///
 /// Throws UnavailableError naming what is needed and what PartReader::offers() does not have.
 std::unique_ptr<PartReader> completeFrames(std::unique_ptr<PartReader> reader, const Needs& needs,

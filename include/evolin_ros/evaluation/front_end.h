@@ -68,8 +68,8 @@ class FrontEnd {
   /// The next parts of the recording.
   void process(std::vector<StreamPart> parts, FrontEndSink* sink);
 
-  /// What the associator counted, as one note; empty where it counted nothing.
-  std::vector<std::string> notes() const;
+  /// What the associator counted since the start, over all passes; "" where it counted nothing.
+  std::string note() const;
 
   /// Of detection, description and matching.
   const StageTimes& stageTimes() const { return times_; }

@@ -40,6 +40,9 @@ class DepthMap {
   /// and overlap in a short loop.
   std::vector<double> at(const std::vector<cv::Point>& pixels) const;
 
+  /// CV_32FC1, rounded once: NaN where nothing was measured.
+  cv::Mat metres() const;
+
   /// False for what stands for "not measured": 0, NaN, infinite or negative numbers.
   static bool isDepth(double metres) { return metres > 0 && std::isfinite(metres); }
 

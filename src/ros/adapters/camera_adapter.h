@@ -41,13 +41,33 @@ class CameraAdapter : public SafeNodelet {
     reader->read("queue_size", &queue_size_, 1, 100000);
     reader->read("warn_after", &warn_after_, 0, 1e6);
     health_ = std::make_unique<Health>(getName(), readHealthLimits(reader, getName()));
+    watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), warn_after_);
+  }
+
+  /// The messages of `type` on `topic` are missed when they do not come, with `hint` what to do,
+  /// and how they fare stands on /diagnostics from now on: see heard() and finished().
+  void startHealth(const std::string& topic, const std::string& type, const std::string& hint) {
+    topic_ = getNodeHandle().resolveName(topic);
+    watchdog_->expect(topic_, type, hint);
+    health_->expect(topic_);
+    health_->start(getMTNodeHandle(), getPrivateNodeHandle());
+  }
+
+  void heard() {
+    watchdog_->heard(topic_);
+    health_->heard(topic_);
+  }
+
+  /// What came of a message is out; `begin`: when it came.
+  void finished(const ros::WallTime& begin) {
+    const double seconds = (ros::WallTime::now() - begin).toSec();
+    health_->finished(seconds, seconds);
   }
 
   /// Subscribes to `topic` and the camera, advertises the lines.
   void begin(const std::string& topic, AdapterPixels pixels, const std::string& hint) {
     ros::NodeHandle& handle = getNodeHandle();
     lines_ = handle.advertise<evolin_ros::LineArray>(topics::kLines, kResultQueue);
-    watchdog_ = std::make_unique<TopicWatchdog>(getMTNodeHandle(), getName(), warn_after_);
     camera_options_.pixels = pixels;
     camera_ = std::make_unique<AdapterCamera>(
         handle, camera_options_,
@@ -57,10 +77,7 @@ class CameraAdapter : public SafeNodelet {
       watchdog_->expect(handle.resolveName(topics::kCameraInfo), "sensor_msgs/CameraInfo",
                         "Remap 'camera_info', or set ~camera to a preset or file.");
     }
-    topic_ = handle.resolveName(topic);
-    watchdog_->expect(topic_, ros::message_traits::datatype<Message>(), hint);
-    health_->expect(topic_);
-    health_->start(getMTNodeHandle(), getPrivateNodeHandle());
+    startHealth(topic, ros::message_traits::datatype<Message>(), hint);
     input_ = handle.subscribe(topic, kResultQueue, &CameraAdapter::onMessage, this);
     NODELET_INFO("lines of %s as '%s', waiting for it%s", topic_.c_str(), source_.c_str(),
                  camera_->isAwaited() ? " and for camera_info" : "");
@@ -98,8 +115,7 @@ class CameraAdapter : public SafeNodelet {
 
  private:
   void onMessage(const MessagePtr& message) {
-    watchdog_->heard(topic_);
-    health_->heard(topic_);
+    heard();
     if (camera_->view() != nullptr) {
       take(*message);
       return;
@@ -144,8 +160,7 @@ class CameraAdapter : public SafeNodelet {
     const ros::WallTime begin = ros::WallTime::now();
     try {
       convert(message, *camera_->view());
-      const double seconds = (ros::WallTime::now() - begin).toSec();
-      health_->finished(seconds, seconds);
+      finished(begin);
     } catch (const std::exception& error) {
       ++refused_;
       health_->dropped("refused");

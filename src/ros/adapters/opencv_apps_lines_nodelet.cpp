@@ -12,7 +12,10 @@ namespace evolin::ros_shell {
 class OpencvAppsLinesNodelet : public CameraAdapter<opencv_apps::LineArrayStamped> {
  public:
   OpencvAppsLinesNodelet() = default;
-  ~OpencvAppsLinesNodelet() override { end(); }
+  ~OpencvAppsLinesNodelet() override {
+    lines_in_.shutdown();
+    end();
+  }
   OpencvAppsLinesNodelet(const OpencvAppsLinesNodelet&) = delete;
   OpencvAppsLinesNodelet& operator=(const OpencvAppsLinesNodelet&) = delete;
   OpencvAppsLinesNodelet(OpencvAppsLinesNodelet&&) = delete;
@@ -34,6 +37,8 @@ class OpencvAppsLinesNodelet : public CameraAdapter<opencv_apps::LineArrayStampe
     ros::NodeHandle& handle = getNodeHandle();
     foreign_lines_ =
         handle.advertise<opencv_apps::LineArrayStamped>(topics::kOpencvAppsLines, kResultQueue);
+    startHealth(topics::kLines, ros::message_traits::datatype<evolin_ros::LineArray>(),
+                "Remap 'lines' to the lines of a detector.");
     lines_in_ =
         handle.subscribe(topics::kLines, kResultQueue, &OpencvAppsLinesNodelet::onLines, this);
     NODELET_INFO("lines of %s for opencv_apps", handle.resolveName(topics::kLines).c_str());
@@ -58,6 +63,8 @@ class OpencvAppsLinesNodelet : public CameraAdapter<opencv_apps::LineArrayStampe
 
   /// Scores, ids, source and size have no place there.
   void onLines(const evolin_ros::LineArrayConstPtr& message) {
+    const ros::WallTime begin = ros::WallTime::now();
+    heard();
     const auto foreign = boost::make_shared<opencv_apps::LineArrayStamped>();
     foreign->header = message->header;
     for (const evolin_ros::Line& line : message->lines) {
@@ -69,6 +76,7 @@ class OpencvAppsLinesNodelet : public CameraAdapter<opencv_apps::LineArrayStampe
       foreign->lines.push_back(copy);
     }
     foreign_lines_.publish(foreign);
+    finished(begin);
   }
 
   ros::Publisher foreign_lines_;
