@@ -53,9 +53,11 @@ class NearLines {
         continue;
       }
       const LineSegment& line = frame.lines[row].segment;
-      const double length = line.length();
-      const double normal_x = (line.y1 - line.y2) / length;
-      const double normal_y = (line.x2 - line.x1) / length;
+      const double dx = line.x2 - line.x1;
+      const double dy = line.y2 - line.y1;
+      const double length = std::sqrt(dx * dx + dy * dy);
+      const double normal_x = -dy / length;
+      const double normal_y = dx / length;
       rows_.push_back(static_cast<std::uint32_t>(row));
       normal_x_.push_back(static_cast<float>(normal_x));
       normal_y_.push_back(static_cast<float>(normal_y));
@@ -123,11 +125,14 @@ void OneToOneRepeatability::addDirection(const SpatialFrame& from, const Spatial
   const std::vector<LineProjection> projections = projectLines(from, to);
   const double tangent = largestTangent(options_.max_angle);
   NearLines lines(to);
+  std::vector<double> lengths;  // of the projections
+  lengths.reserve(projections.size());
   std::vector<Candidate> candidates;
   for (std::size_t index = 0; index < projections.size(); ++index) {
     const LineSegment& projection = projections[index].segment;
     ++visible_;
-    visible_length_.add(projection.length());
+    lengths.push_back(projection.length());
+    visible_length_.add(lengths.back());
     for (const std::uint32_t row : lines.around(projection, options_.max_distance)) {
       const LineSegment& line = to.lines[row].segment;
       if (!isWithinAngle(projection, line, tangent)) {
@@ -155,7 +160,7 @@ void OneToOneRepeatability::addDirection(const SpatialFrame& from, const Spatial
     line_taken[candidate.line] = true;
     const LineSegment& projection = projections[candidate.projection].segment;
     ++matched_;
-    matched_length_.add(projection.length() *
+    matched_length_.add(lengths[candidate.projection] *
                         coveredShare(projection, to.lines[candidate.line].segment));
   }
 }

@@ -45,19 +45,20 @@ void sumAreas(const ScoreRanking::Entry* entries, std::size_t count, unsigned sh
   Double losses[kVectors] = {};
   Double misses[kVectors] = {};
   const double* step = steps;
+  double before = *step;
   for (std::size_t i = 0; i < count; ++i) {
     const FrameWeight& frame = weights[entries[i].frame];
     const long long* const mask =
         kHitMasks.words[(entries[i].hits >> shift) & (HitMasks::kPatterns - 1)];
-    const double before = *step;
     step += frame.copies;
     const double length = *step - before;
+    before = *step;
+    const Bits weight = reinterpret_cast<Bits>(frame.weight - Double{});  // in every lane
     for (std::size_t v = 0; v < kVectors; ++v) {
       Bits hit;
       __builtin_memcpy(&hit, mask + v * kWidth, sizeof(hit));
       const Bits all_misses = reinterpret_cast<Bits>(misses[v]);
       losses[v] += reinterpret_cast<Double>(all_misses & hit) * length;
-      const Bits weight = reinterpret_cast<Bits>(Double{} + frame.weight);
       misses[v] += reinterpret_cast<Double>(weight & ~hit);
     }
   }
