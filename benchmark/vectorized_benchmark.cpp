@@ -9,6 +9,7 @@
 
 #include "benchmark/real_input.h"
 #include "evolin_ros/dataset/csv.h"
+#include "evolin_ros/metrics/resampled_precision.h"
 #include "evolin_ros/metrics/vectorized.h"
 #include "test/support/random_lines.h"
 
@@ -82,6 +83,20 @@ void addFramesAndReadEverything(benchmark::State& state) {
   }
 }
 BENCHMARK(addFramesAndReadEverything)->Unit(benchmark::kMillisecond);
+
+/// One of the thousand resamples that intervals are made of.
+void resampleAveragePrecisions(benchmark::State& state) {
+  const evolin::VectorizedMetrics metrics = measure(loadSequence());
+  evolin::ResampledPrecision resampled(metrics.ranking());
+  std::vector<std::uint32_t> weights(metrics.frames());
+  for (std::size_t frame = 0; frame < weights.size(); ++frame) {
+    weights[frame] = static_cast<std::uint32_t>(frame * 7 % 5 / 2);  // 0 to 2
+  }
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(resampled.averagePrecisions(weights));
+  }
+}
+BENCHMARK(resampleAveragePrecisions)->Unit(benchmark::kMicrosecond);
 
 /// One more frame after so many others: its cost must not grow with them.
 void addFrameAfterMany(benchmark::State& state) {

@@ -18,7 +18,8 @@ void estimateDistances(const float* row, const float* columns, std::size_t size,
 
 void estimateDistances(const float* row, const float* columns, std::size_t size, std::size_t count,
                        float* estimates) {
-  static const bool has_wide = cv::checkHardwareSupport(CV_CPU_AVX2);
+  static const bool has_wide =
+      cv::checkHardwareSupport(CV_CPU_AVX2) && cv::checkHardwareSupport(CV_CPU_FMA3);
   (has_wide ? wide::estimateDistances : generic::estimateDistances)(row, columns, size, count,
                                                                     estimates);
 }

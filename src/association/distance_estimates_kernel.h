@@ -20,8 +20,10 @@ void estimate(const float* row, const float* columns, std::size_t size, std::siz
               float* estimates) {
   using Float = typename Vectors::Float;
   constexpr std::size_t kWidth = sizeof(Float) / sizeof(float);
-  constexpr std::size_t kVectors = kEstimateColumns / kWidth;
-  for (std::size_t begin = 0; begin < count; begin += kEstimateColumns) {
+  // So many sums are under way that none waits for its last addition.
+  constexpr std::size_t kVectors = 8;
+  static_assert(kEstimateColumns % (kVectors * kWidth) == 0, "whole blocks");
+  for (std::size_t begin = 0; begin < count; begin += kVectors * kWidth) {
     Float sums[kVectors] = {};
     for (std::size_t d = 0; d < size; ++d) {
       const float* const column = columns + d * count + begin;

@@ -1,4 +1,4 @@
-// The loop for processors with AVX2: this file alone is compiled for them.
+// The loop for processors with AVX2 and FMA: this file alone is compiled for them.
 #include "distance_estimates.h"
 #include "distance_estimates_kernel.h"
 

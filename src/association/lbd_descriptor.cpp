@@ -24,43 +24,46 @@ constexpr int kSums = kLbdSums;
 constexpr float kClip = 0.4F;
 constexpr float kNormGuard = 1e-5F;
 
-struct Gradient {
-  int width;
-  int height;
-  std::vector<std::int32_t> pixels;
-};
+// Sobel's two filters share their sums over a column, and both see the border pixel beyond it. The
+// rows do not overlap, which lets the compiler take many pixels at a time.
+void sumColumns(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
+                const std::uint8_t* __restrict below, int width, std::int16_t* __restrict sum,
+                std::int16_t* __restrict difference) {
+  for (int x = 0; x < width; ++x) {
+    sum[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
+    difference[x] = static_cast<std::int16_t>(below[x] - above[x]);
+  }
+}
 
-Gradient computeGradient(const cv::Mat& gray) {
+// From one pixel left of a row to one right of it: to words of both derivatives.
+void combineColumns(const std::int16_t* __restrict sum, const std::int16_t* __restrict difference,
+                    int width, std::int32_t* __restrict out) {
+  for (int x = 0; x < width; ++x) {
+    const int dx = sum[x + 2] - sum[x];
+    const int dy = difference[x] + 2 * difference[x + 1] + difference[x + 2];
+    out[x] = (dx & 0xFFFF) + dy * 65536;
+  }
+}
+
+cv::Mat1i computeGradient(const cv::Mat& gray) {
   cv::Mat smooth;
   // OpenCV's filters would see the pixels around a window into a larger image.
   const cv::Mat own = gray.isSubmatrix() ? gray.clone() : gray;
   cv::GaussianBlur(own, smooth, cv::Size(5, 5), 1.0, 1.0, cv::BORDER_REPLICATE);
 
-  // Sobel's two filters share their sums over a column, and both see the border pixel beyond it.
-  Gradient gradient{gray.cols, gray.rows, {}};
-  gradient.pixels.resize(static_cast<std::size_t>(gray.cols) * gray.rows);
+  cv::Mat1i gradient(gray.size());
   std::vector<std::int16_t> sums(static_cast<std::size_t>(gray.cols) + 2);
   std::vector<std::int16_t> differences(sums.size());
   for (int y = 0; y < gray.rows; ++y) {
-    const std::uint8_t* const above = smooth.ptr(std::max(y - 1, 0));
-    const std::uint8_t* const here = smooth.ptr(y);
-    const std::uint8_t* const below = smooth.ptr(std::min(y + 1, gray.rows - 1));
-    std::int16_t* const sum = sums.data() + 1;
-    std::int16_t* const difference = differences.data() + 1;
-    for (int x = 0; x < gray.cols; ++x) {
-      sum[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
-      difference[x] = static_cast<std::int16_t>(below[x] - above[x]);
+    const int above = std::max(y - 1, 0);
+    const int below = std::min(y + 1, gray.rows - 1);
+    sumColumns(smooth.ptr(above), smooth.ptr(y), smooth.ptr(below), gray.cols, sums.data() + 1,
+               differences.data() + 1);
+    for (std::vector<std::int16_t>* row : {&sums, &differences}) {
+      row->front() = (*row)[1];
+      row->back() = (*row)[row->size() - 2];
     }
-    for (std::int16_t* const row : {sum, difference}) {
-      row[-1] = row[0];
-      row[gray.cols] = row[gray.cols - 1];
-    }
-    std::int32_t* const out = gradient.pixels.data() + static_cast<std::size_t>(y) * gray.cols;
-    for (int x = 0; x < gray.cols; ++x) {
-      const int dx = sum[x + 1] - sum[x - 1];
-      const int dy = difference[x - 1] + 2 * difference[x] + difference[x + 1];
-      out[x] = (dx & 0xFFFF) + dy * 65536;
-    }
+    combineColumns(sums.data(), differences.data(), gray.cols, gradient[y]);
   }
   return gradient;
 }
@@ -194,7 +197,7 @@ cv::Mat describeLbd(const cv::Mat& gray, const LineSegments& lines) {
   if (lines.empty()) {
     return descriptors;
   }
-  const Gradient gradient = computeGradient(gray);
+  const cv::Mat1i gradient = computeGradient(gray);
   const Weights weights;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     float* const descriptor = descriptors.ptr<float>(static_cast<int>(i));
@@ -211,8 +214,8 @@ cv::Mat describeLbd(const cv::Mat& gray, const LineSegments& lines) {
       continue;  // the row stays zero
     }
     LbdRowSums sums;
-    sumLbdRows({gradient.pixels.data(), gradient.width, gradient.height}, support,
-               !isInside(support, gradient.width, gradient.height), &sums);
+    sumLbdRows({gradient[0], gradient.cols, gradient.rows}, support,
+               !isInside(support, gradient.cols, gradient.rows), &sums);
     bandStatistics(sums, weights, descriptor);
     normalize(descriptor);
   }

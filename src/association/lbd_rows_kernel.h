@@ -88,10 +88,12 @@ class LbdLoops {
       const Float dy = __builtin_convertvector(word >> 16, Float);
       const Float along = dx * along_x + dy * along_y;
       const Float across = dy * along_x - dx * along_y;
-      along_positive += along > none ? along : none;
-      along_negative += -along > none ? -along : none;
-      across_positive += across > none ? across : none;
-      across_negative += -across > none ? -across : none;
+      const Float forward = along > none ? along : none;
+      const Float upward = across > none ? across : none;
+      along_positive += forward;
+      along_negative += forward - along;  // exact: one of the two is zero, or both are equal
+      across_positive += upward;
+      across_negative += upward - across;
       x += along_x;
       y += along_y;
     }

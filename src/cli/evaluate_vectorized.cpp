@@ -8,6 +8,7 @@
 #include "evaluate_options.h"
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/dataset/csv.h"
+#include "evolin_ros/metrics/resampled_precision.h"
 #include "evolin_ros/metrics/vectorized.h"
 #include "options.h"
 #include "parallel.h"
@@ -118,10 +119,11 @@ void addRankingEntries(const VectorizedMetrics& metrics, const EvaluateOptions& 
                        std::vector<PublishedEntry>* entries) {
   const ScoreRanking ranking = metrics.ranking();
   const std::vector<std::optional<double>> values = ranking.averagePrecisions();
+  ResampledPrecision resampled(ranking);
   const std::vector<ConfidenceInterval> intervals = intervalsFor(
-      options, metrics.frames(), [&ranking](const std::vector<std::uint32_t>& weights) {
+      options, metrics.frames(), [&resampled](const std::vector<std::uint32_t>& weights) {
         std::vector<double> figures;
-        for (const std::optional<double>& value : ranking.averagePrecisions(weights)) {
+        for (const std::optional<double>& value : resampled.averagePrecisions(weights)) {
           figures.push_back(orNan(value));
         }
         return figures;

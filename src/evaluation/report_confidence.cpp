@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "evolin_ros/metrics/resampled_precision.h"
+
 namespace evolin {
 
 namespace {
@@ -69,10 +71,10 @@ void addDetection(const VectorizedMetrics& detection, Resampling* resampling) {
     }
     frames.push_back(detection.frameClassifications(i));
   }
-  const ScoreRanking ranking = detection.ranking();
+  ResampledPrecision resampled(detection.ranking());
   resampling->add(
       detection.frames(), std::move(names), [&](const std::vector<std::uint32_t>& weights) {
-        const auto precisions = ranking.averagePrecisions(weights);
+        const auto precisions = resampled.averagePrecisions(weights);
         std::vector<double> figures;
         for (std::size_t i = 0; i < frames.size(); ++i) {
           appendRatios(evolin::weightedSum(frames[i], weights), &figures);

@@ -14,11 +14,9 @@ namespace evolin {
 
 namespace {
 
-/// No two lines of the scaled frame are farther apart.
-constexpr double kUnlimited = 4 * kScaledSide;
-
-/// Most have a line this near, and a search in a small neighbourhood is quick.
-constexpr double kUsual = kScaledSide / 8;
+/// Searches in small neighbourhoods are quick, and mostly they find as many as are wanted. No two
+/// lines of the scaled frame are farther apart than the last.
+constexpr double kReaches[] = {kScaledSide / 64, kScaledSide / 8, 4 * kScaledSide};
 
 void checkCount(const BestLocalizationOptions& options) {
   if (options.count == 0) {
@@ -26,36 +24,61 @@ void checkCount(const BestLocalizationOptions& options) {
   }
 }
 
-void collectDistances(const SpatialFrame& from, const SpatialFrame& to, LineDistance distance,
-                      std::vector<double>* distances) {
-  LineSegments lines;
-  for (const SpatialLine& line : to.lines) {
-    if (line.in_image) {
-      lines.push_back(scaled(line.segment, to.size));
+/// The lines of one frame, and projections of the other's that have not met any of them yet.
+class Direction {
+ public:
+  Direction(const SpatialFrame& from, const SpatialFrame& to, LineDistance distance)
+      : distance_(distance), gate_(to.protocol == Protocol::kEvolin), search_(scaledLines(to)) {
+    for (const LineProjection& projection : projectLines(from, to)) {
+      queries_.push_back(scaled(projection.segment, to.size));
     }
   }
-  NearestLineSearch search(lines);
-  for (const LineProjection& projection : projectLines(from, to)) {
-    const LineSegment query = scaled(projection.segment, to.size);
-    const bool gate = to.protocol == Protocol::kEvolin;
-    NearestLine nearest = search.find(distance, query, kUsual, gate);
-    if (!std::isfinite(nearest.distance)) {
-      nearest = search.find(distance, query, kUnlimited, gate);
-    }
-    if (std::isfinite(nearest.distance)) {
-      distances->push_back(nearest.distance);
-    }
+
+  /// Distances up to `reach` of projections that no earlier call found.
+  void collect(double reach, std::vector<double>* distances) {
+    const auto found = [&](const LineSegment& query) {
+      const NearestLine nearest = search_.find(distance_, query, reach, gate_);
+      if (std::isfinite(nearest.distance)) {
+        distances->push_back(nearest.distance);
+        return true;
+      }
+      return false;
+    };
+    queries_.erase(std::remove_if(queries_.begin(), queries_.end(), found), queries_.end());
   }
-}
+
+ private:
+  static LineSegments scaledLines(const SpatialFrame& frame) {
+    LineSegments lines;
+    for (const SpatialLine& line : frame.lines) {
+      if (line.in_image) {
+        lines.push_back(scaled(line.segment, frame.size));
+      }
+    }
+    return lines;
+  }
+
+  LineDistance distance_;
+  bool gate_;
+  NearestLineSearch search_;
+  LineSegments queries_;
+};
 
 }  // namespace
 
 PairBestLocalization measureBestLocalization(const SpatialFrame& first, const SpatialFrame& second,
                                              const BestLocalizationOptions& options) {
   checkCount(options);
+  Direction forward(first, second, options.distance);
+  Direction backward(second, first, options.distance);
   std::vector<double> distances;
-  collectDistances(first, second, options.distance, &distances);
-  collectDistances(second, first, options.distance, &distances);
+  for (const double reach : kReaches) {
+    forward.collect(reach, &distances);
+    backward.collect(reach, &distances);
+    if (distances.size() >= options.count) {
+      break;  // what is farther away is not among the best
+    }
+  }
   PairBestLocalization result;
   result.used = std::min(options.count, distances.size());
   const auto end = distances.begin() + static_cast<std::ptrdiff_t>(result.used);

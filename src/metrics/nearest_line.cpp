@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "small_bounds.h"
+
 namespace evolin {
 
 namespace {
@@ -97,16 +99,8 @@ NearestLineSearch::Window NearestLineSearch::windowAround(double sum_x, double w
 }
 
 std::size_t NearestLineSearch::collect(Window window, float limit) {
-  // Without a branch that depends on the data; a bound that is not a number (a line without a
-  // direction) is out of reach.
-  const float* const bounds = bounds_.data();
-  std::uint32_t* const positions = candidates_.data();
-  std::size_t candidates = 0;
-  for (std::size_t position = window.begin; position < window.end; ++position) {
-    positions[candidates] = static_cast<std::uint32_t>(position);
-    candidates += bounds[position] <= limit ? 1 : 0;
-  }
-  return candidates;
+  // The bound of a line without a direction is not a number: it is out of reach.
+  return collectWithin(bounds_.data(), window.begin, window.end, limit, candidates_.data());
 }
 
 std::size_t NearestLineSearch::boundStructural(const LineSegment& query, Window window,

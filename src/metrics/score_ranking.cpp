@@ -1,10 +1,7 @@
 // Curves and areas in one pass over the ranked predictions.
 #include "evolin_ros/metrics/score_ranking.h"
 
-#include <string>
 #include <utility>
-
-#include "evolin_ros/base/error.h"
 
 namespace evolin {
 
@@ -36,18 +33,9 @@ PrecisionRecallCurve ScoreRanking::curve(std::size_t setting) const {
 }
 
 std::vector<std::optional<double>> ScoreRanking::averagePrecisions() const {
-  return averagePrecisions(std::vector<std::uint32_t>(ground_truth_.size(), 1));
-}
-
-std::vector<std::optional<double>> ScoreRanking::averagePrecisions(
-    const std::vector<std::uint32_t>& weights) const {
-  if (weights.size() != ground_truth_.size()) {
-    throw Error("average precision: " + std::to_string(weights.size()) + " weights for " +
-                std::to_string(ground_truth_.size()) + " frames; expected one a frame");
-  }
   std::uint64_t lines = 0;
-  for (std::size_t frame = 0; frame < weights.size(); ++frame) {
-    lines += std::uint64_t{weights[frame]} * ground_truth_[frame];
+  for (const std::uint32_t count : ground_truth_) {
+    lines += count;
   }
   // Recall moves at true positives only, so they alone add area: with h true positives among n
   // predictions, from ((h-1)/lines, (h-1)/(n-1)) to (h/lines, h/n).
@@ -55,22 +43,20 @@ std::vector<std::optional<double>> ScoreRanking::averagePrecisions(
   std::vector<double> areas(settings_, 0.0);
   std::uint64_t predictions = 0;
   for (const Entry& entry : entries_) {
-    for (std::uint32_t copy = 0; copy < weights[entry.frame]; ++copy) {
-      ++predictions;
-      if (entry.hits == 0) {
+    ++predictions;
+    if (entry.hits == 0) {
+      continue;
+    }
+    for (std::size_t setting = 0; setting < settings_; ++setting) {
+      if (((entry.hits >> setting) & 1U) == 0) {
         continue;
       }
-      for (std::size_t setting = 0; setting < settings_; ++setting) {
-        if (((entry.hits >> setting) & 1U) == 0) {
-          continue;
-        }
-        const auto before = static_cast<double>(hits[setting]++);
-        const double precision = (before + 1) / static_cast<double>(predictions);
-        if (predictions > 1) {
-          areas[setting] += (precision + before / static_cast<double>(predictions - 1)) / 2;
-        } else if (protocol_ == Protocol::kPaper) {
-          areas[setting] += precision;
-        }
+      const auto before = static_cast<double>(hits[setting]++);
+      const double precision = (before + 1) / static_cast<double>(predictions);
+      if (predictions > 1) {
+        areas[setting] += (precision + before / static_cast<double>(predictions - 1)) / 2;
+      } else if (protocol_ == Protocol::kPaper) {
+        areas[setting] += precision;
       }
     }
   }

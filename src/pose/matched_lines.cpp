@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/geometry/clipping.h"
@@ -12,39 +13,27 @@ namespace evolin {
 
 namespace {
 
-std::optional<Eigen::Vector3d> pointAt(const Eigen::Vector2d& pixel, const DepthMap& depth,
-                                       const Camera& camera) {
-  const cv::Point nearest = nearestPixel(pixel.x(), pixel.y(), depth.size());
-  const double metres = depth.at(nearest.x, nearest.y);
-  return DepthMap::isDepth(metres)
-             ? std::optional<Eigen::Vector3d>(backProject(camera, pixel.x(), pixel.y(), metres))
-             : std::nullopt;
-}
-
-std::optional<LiftedLine> lift(const LineSegment& line, const DepthMap& depth, const Camera& camera,
-                               EndpointRule rule) {
-  const Rectangle image{0, 0, depth.size().width - 1.0, depth.size().height - 1.0};
-  LiftedLine lifted;
+/// The line's ends in the image; none where nothing of it is inside.
+std::optional<LiftedLine> endsOf(const LineSegment& line, ImageSize size, EndpointRule rule) {
+  const Rectangle image{0, 0, size.width - 1.0, size.height - 1.0};
+  LiftedLine ends;
   if (rule == EndpointRule::kTruncated) {
     const LineSegment inside = clampToRectangle(line, image);
-    lifted.pixel1 = {std::trunc(inside.x1), std::trunc(inside.y1)};
-    lifted.pixel2 = {std::trunc(inside.x2), std::trunc(inside.y2)};
-  } else {
-    const std::optional<LineSegment> inside = clipToRectangle(line, image);
-    if (!inside) {
-      return std::nullopt;
-    }
-    lifted.pixel1 = {inside->x1, inside->y1};
-    lifted.pixel2 = {inside->x2, inside->y2};
+    ends.pixel1 = {std::trunc(inside.x1), std::trunc(inside.y1)};
+    ends.pixel2 = {std::trunc(inside.x2), std::trunc(inside.y2)};
+    return ends;
   }
-  const std::optional<Eigen::Vector3d> point1 = pointAt(lifted.pixel1, depth, camera);
-  const std::optional<Eigen::Vector3d> point2 = pointAt(lifted.pixel2, depth, camera);
-  if (!point1 || !point2) {
+  const std::optional<LineSegment> inside = clipToRectangle(line, image);
+  if (!inside) {
     return std::nullopt;
   }
-  lifted.point1 = *point1;
-  lifted.point2 = *point2;
-  return lifted;
+  ends.pixel1 = {inside->x1, inside->y1};
+  ends.pixel2 = {inside->x2, inside->y2};
+  return ends;
+}
+
+cv::Point depthPixel(const Eigen::Vector2d& pixel, ImageSize size) {
+  return nearestPixel(pixel.x(), pixel.y(), size);
 }
 
 const std::optional<LiftedLine>& lineAt(const LiftedLines& lines, std::int64_t index,
@@ -67,12 +56,30 @@ LiftedLines liftEndpoints(const std::string& frame_name, const LineSegments& lin
   validateCamera(sized, "relative pose: camera " + camera.name);
   LiftedLines lifted;
   lifted.reserve(lines.size());
+  std::vector<cv::Point>
+      pixels;  // of both ends of every line, so that their depths are read at once
+  pixels.reserve(2 * lines.size());
   for (std::size_t row = 0; row < lines.size(); ++row) {
     if (!lines[row].isFinite()) {
       throw Error("relative pose: line " + std::to_string(row) + " of frame " + frame_name +
                   " is not finite, expected four numbers of pixels");
     }
-    lifted.push_back(lift(lines[row], depth, camera, rule));
+    lifted.push_back(endsOf(lines[row], depth.size(), rule));
+    const LiftedLine ends = lifted.back().value_or(LiftedLine());
+    pixels.push_back(depthPixel(ends.pixel1, depth.size()));
+    pixels.push_back(depthPixel(ends.pixel2, depth.size()));
+  }
+  const std::vector<double> depths = depth.at(pixels);
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    std::optional<LiftedLine>& line = lifted[row];
+    const double depth1 = depths[2 * row];
+    const double depth2 = depths[2 * row + 1];
+    if (!line || !DepthMap::isDepth(depth1) || !DepthMap::isDepth(depth2)) {
+      line.reset();
+      continue;
+    }
+    line->point1 = backProject(camera, line->pixel1.x(), line->pixel1.y(), depth1);
+    line->point2 = backProject(camera, line->pixel2.x(), line->pixel2.y(), depth2);
   }
   return lifted;
 }

@@ -64,7 +64,8 @@ TEST(DistanceEstimates, AreNearTheDistances) {
     }
   }
   for (const auto estimate : {&generic::estimateDistances, &wide::estimateDistances}) {
-    if (estimate == &wide::estimateDistances && !hasWide()) {
+    if (estimate == &wide::estimateDistances &&
+        !(hasWide() && cv::checkHardwareSupport(CV_CPU_FMA3))) {
       continue;
     }
     std::vector<float> estimates(kCount);

@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "evolin_ros/base/error.h"
 #include "test/metrics/vectorized_support.h"
 #include "test/support/random_lines.h"
 
@@ -81,35 +80,6 @@ TEST(AveragePrecision, IsEmptyWithoutScoresPredictionsOrTruth) {
   EXPECT_FALSE(no_truth.averagePrecision(0));
   EXPECT_EQ(no_truth.curve(0).recall, std::vector<double>{0});
   EXPECT_FALSE(VectorizedMetrics().averagePrecision(0));
-}
-
-TEST(AveragePrecision, WithWeightsEqualsTheRepeatedSequence) {
-  test::RandomLines random(12);
-  std::vector<LineSegments> truths;
-  std::vector<LineSegments> detections;
-  for (int frame = 0; frame < 4; ++frame) {
-    truths.push_back(random.anywhere(10, 128, 128));
-    detections.push_back(random.detectionsOf(truths.back(), 25, 10));
-    for (std::size_t row = 0; row < 25; ++row) {  // no equal scores: their order would differ
-      detections.back()[row].score = random.uniform(0, 1);
-    }
-  }
-  const std::vector<std::uint32_t> weights = {2, 0, 1, 3};
-  VectorizedMetrics once;
-  VectorizedMetrics repeated;
-  std::uint32_t number = 0;
-  for (std::uint32_t frame = 0; frame < 4; ++frame) {
-    once.addFrame(10 * frame, "f", kUnit, detections[frame], truths[frame], true);
-    for (std::uint32_t copy = 0; copy < weights[frame]; ++copy) {
-      repeated.addFrame(number++, "f", kUnit, detections[frame], truths[frame], true);
-    }
-  }
-  const auto weighted = once.ranking().averagePrecisions(weights);
-  const auto expected = repeated.averagePrecisions();
-  for (std::size_t setting = 0; setting < kSettings; ++setting) {
-    EXPECT_NEAR(*weighted[setting], *expected[setting], 1e-12);
-  }
-  EXPECT_THROW(once.ranking().averagePrecisions({1, 2}), Error);
 }
 
 }  // namespace

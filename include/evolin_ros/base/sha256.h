@@ -1,30 +1,30 @@
 // SHA-256 (FIPS 180-4), by which results name the data that they are of.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace evolin {
 
+/// Throws Error where the cryptographic library of the system does not offer SHA-256.
 class Sha256 {
  public:
+  Sha256();
+  ~Sha256();
+  Sha256(Sha256&& other) noexcept;
+  Sha256& operator=(Sha256&& other) noexcept;
+
   void add(std::string_view bytes);
 
   /// The digest of everything added so far, 64 hexadecimal digits in lower case.
   std::string digest() const;
 
  private:
-  void addBlock(const std::uint8_t* block);
+  class Context;  // OpenSSL's
 
-  std::array<std::uint32_t, 8> state_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                         0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  std::array<std::uint8_t, 64> rest_ = {};  ///< of a block that is not full yet
-  std::size_t rest_size_ = 0;
-  std::uint64_t size_ = 0;  ///< bytes
+  std::unique_ptr<Context> context_;
 };
 
 /// The digest of a file's content; throws Error naming a file that cannot be read.

@@ -41,10 +41,10 @@ class ScoreRanking {
   /// truth.
   std::vector<std::optional<double>> averagePrecisions() const;
 
-  /// The same for the sequence in which frame f occurs weights[f] times, copies of a prediction
-  /// following each other. Throws Error when the number of weights is not that of the frames.
-  std::vector<std::optional<double>> averagePrecisions(
-      const std::vector<std::uint32_t>& weights) const;
+  Protocol protocol() const { return protocol_; }
+  std::size_t settings() const { return settings_; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  const std::vector<std::uint32_t>& groundTruth() const { return ground_truth_; }
 
  private:
   Protocol protocol_ = Protocol::kEvolin;

@@ -1,0 +1,34 @@
+// Average precision of a sequence whose frames are drawn again: what its bootstrap asks a thousand
+// times.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "evolin_ros/metrics/score_ranking.h"
+
+namespace evolin {
+
+/// Not safe for several threads.
+class ResampledPrecision {
+ public:
+  explicit ResampledPrecision(const ScoreRanking& ranking);
+
+  /// ScoreRanking::averagePrecisions(), but for the last bits, of the sequence in which frame f
+  /// occurs weights[f] times, copies of a prediction following each other. Throws Error when the
+  /// number of weights is not that of the frames.
+  std::vector<std::optional<double>> averagePrecisions(const std::vector<std::uint32_t>& weights);
+
+ private:
+  void extendSteps(std::size_t predictions);
+
+  Protocol protocol_;
+  std::size_t settings_;
+  std::vector<ScoreRanking::Entry> entries_;
+  std::vector<std::uint32_t> ground_truth_;
+  std::vector<std::uint32_t> predicted_;  ///< by frame
+  std::vector<double> steps_;             ///< by predictions so far; see resampled_areas.h
+};
+
+}  // namespace evolin
