@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "spatial_markers.h"
-#include "view_markers.h"
 #include "test/support/expect_error.h"
+#include "view_markers.h"
 
 namespace evolin::ros_shell {
 namespace {
