@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -14,15 +15,16 @@ constexpr double kNoAngleLimit = 90;
 struct Placement {
   double x;  ///< of the middle
   double y;
-  double direction;  ///< degrees
+  double direction;  ///< degrees; NaN of a line that is not finite
 };
 
 std::vector<Placement> placementsOf(const LineSegments& lines) {
   std::vector<Placement> placements;
   placements.reserve(lines.size());
   for (const LineSegment& line : lines) {
+    const double direction = std::atan2(line.y2 - line.y1, line.x2 - line.x1) * 180 / M_PI;
     placements.push_back({line.x1 / 2 + line.x2 / 2, line.y1 / 2 + line.y2 / 2,
-                          std::atan2(line.y2 - line.y1, line.x2 - line.x1) * 180 / M_PI});
+                          line.isFinite() ? direction : std::numeric_limits<double>::quiet_NaN()});
   }
   return placements;
 }

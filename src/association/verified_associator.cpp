@@ -1,23 +1,91 @@
-// The verification's parameters, its lines in space beside the inner description, and its counts.
+// The verification's parameters, its lines in space beside the inner description, one camera for
+// the lines of two, and its counts.
 #include "evolin_ros/association/verified_associator.h"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <any>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
+#include "evolin_ros/geometry/lens_distortion.h"
 
 namespace evolin {
 
 namespace {
 
+/// A frame's lines and where they are in space, as if its camera had no distortion.
+struct RectifiedLines {
+  LineSegments lines;
+  SpatialSegments in_space;
+};
+
 /// What FrameLines::description holds: the lines in space beside what the inner associator keeps.
 struct VerifiedDescription {
   std::any inner;
-  std::optional<SpatialSegments> in_space;
+  std::optional<RectifiedLines> rectified;
 };
+
+/// The line between what `map` makes of its ends (pixels as Eigen::Vector2d); one that is not
+/// finite, and that verification drops, where it makes nothing of one.
+template <typename Map>
+LineSegment mapEnds(LineSegment line, const Map& map) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const std::optional<Eigen::Vector2d> first = map(Eigen::Vector2d(line.x1, line.y1));
+  const std::optional<Eigen::Vector2d> second = map(Eigen::Vector2d(line.x2, line.y2));
+  line.x1 = first && second ? first->x() : kNan;
+  line.y1 = first && second ? first->y() : kNan;
+  line.x2 = first && second ? second->x() : kNan;
+  line.y2 = first && second ? second->y() : kNan;
+  return line;
+}
+
+Eigen::Vector2d directionOf(const Eigen::Vector2d& pixel, const Camera& camera) {
+  return {(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy};
+}
+
+Eigen::Vector2d pixelOf(const Eigen::Vector2d& direction, const Camera& camera) {
+  return {camera.fx * direction.x() + camera.cx, camera.fy * direction.y() + camera.cy};
+}
+
+/// Takes the lens out of lines and of the ends of what liftIntoSpace() made of them.
+void removeDistortion(const Camera& camera, RectifiedLines* rectified) {
+  const LensDistortion lens(camera);
+  const auto without_lens = [&](const Eigen::Vector2d& pixel) -> std::optional<Eigen::Vector2d> {
+    const auto direction = lens.undistort(directionOf(pixel, camera));
+    return direction ? std::optional<Eigen::Vector2d>(pixelOf(*direction, camera)) : std::nullopt;
+  };
+  for (LineSegment& line : rectified->lines) {
+    line = mapEnds(line, without_lens);
+  }
+  for (std::optional<Segment3d>& segment : rectified->in_space) {
+    if (!segment) {
+      continue;
+    }
+    const auto first = lens.undistort(segment->p1.hnormalized());
+    const auto second = lens.undistort(segment->p2.hnormalized());
+    if (first && second) {
+      segment->p1 = segment->p1.z() * Eigen::Vector3d(first->homogeneous());
+      segment->p2 = segment->p2.z() * Eigen::Vector3d(second->homogeneous());
+    } else {
+      segment.reset();
+    }
+  }
+}
+
+/// Where a pinhole camera `to` in the place of `from` has the lines.
+LineSegments seenBy(const Camera& to, const Camera& from, LineSegments lines) {
+  for (LineSegment& line : lines) {
+    line = mapEnds(line, [&](const Eigen::Vector2d& pixel) {
+      return std::optional<Eigen::Vector2d>(pixelOf(directionOf(pixel, from), to));
+    });
+  }
+  return lines;
+}
 
 /// Leaves the frame to the inner associator with its own description, and takes it back in the end.
 class LentFrame {
@@ -35,11 +103,15 @@ class LentFrame {
   LentFrame(const LentFrame&) = delete;
   LentFrame& operator=(const LentFrame&) = delete;
 
-  const SpatialSegments& inSpace(const char* owner) {
-    if (!mine_.in_space || mine_.in_space->size() != frame_.lines.size()) {
-      mine_.in_space = liftIntoSpace(frame_, owner);
+  const RectifiedLines& rectified(const char* owner) {
+    if (!mine_.rectified || mine_.rectified->lines.size() != frame_.lines.size()) {
+      RectifiedLines lifted{frame_.lines, liftIntoSpace(frame_, owner)};
+      if (hasDistortion(*frame_.frame.camera)) {
+        removeDistortion(*frame_.frame.camera, &lifted);
+      }
+      mine_.rectified = std::move(lifted);
     }
-    return *mine_.in_space;
+    return *mine_.rectified;
   }
 
  private:
@@ -102,7 +174,7 @@ void VerifiedAssociator::describe(const FrameLines& lines) {
   }
   LentFrame frame(lines);
   inner_->describe(lines);
-  frame.inSpace(owner_.c_str());
+  frame.rectified(owner_.c_str());
 }
 
 LineMatches VerifiedAssociator::match(const FrameLines& first, const FrameLines& second) {
@@ -114,13 +186,23 @@ LineMatches VerifiedAssociator::match(const FrameLines& first, const FrameLines&
   if (&second != &first) {
     lent_second.emplace(second);
   }
-  const SpatialSegments& of_first = lent_first.inSpace(owner_.c_str());
-  const SpatialSegments& of_second = lent_second ? lent_second->inSpace(owner_.c_str()) : of_first;
+  const RectifiedLines& of_first = lent_first.rectified(owner_.c_str());
+  const RectifiedLines& of_second = lent_second ? lent_second->rectified(owner_.c_str()) : of_first;
+  const Camera& camera = *first.frame.camera;
+  const Camera& other = *second.frame.camera;
+  std::optional<LineSegments> moved;
+  if (!sameIntrinsics(camera, other)) {
+    moved = seenBy(camera, other, of_second.lines);
+  }
   LineMatches matches = inner_->match(first, second);
   const MatchVerification verified = verifyByPose(
-      {first.lines, of_first}, {second.lines, of_second}, matches, *first.frame.camera, options_);
+      {of_first.lines, of_first.in_space}, {moved ? *moved : of_second.lines, of_second.in_space},
+      matches, camera, options_);
   ++pairs_;
-  pairs_without_motion_ += verified.found ? 0 : 1;
+  if (!verified.found()) {
+    ++pairs_without_motion_;
+    ++failures_[verified.failure];
+  }
   matches_ += matches.size();
   kept_ += verified.kept.size();
   without_depth_ += verified.without_depth;
@@ -140,6 +222,9 @@ MatchCounts VerifiedAssociator::counts() const {
     counts["matches without depth in either frame, dropped"] += without_depth_;
     counts["pairs of frames verified"] += pairs_;
     counts["pairs of frames without a motion, all their matches dropped"] += pairs_without_motion_;
+    for (const auto& [failure, pairs] : failures_) {
+      counts["pairs of frames without a motion: " + toString(failure)] += pairs;
+    }
   }
   return counts;
 }

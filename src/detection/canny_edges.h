@@ -7,7 +7,6 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "marked_pixels.h"
 #include "smoothed_gradient.h"
 
 namespace evolin {
@@ -55,11 +54,5 @@ class CannyEdges {
   std::vector<std::uint8_t*> strong_;  // edges whose neighbours are to be looked at
   cv::Mat copy_;
 };
-
-/// Calls `visit(x)` for each x in [first, last) where row[x] is not 0 when its turn comes.
-template <typename Visit>
-void visitEdges(const std::uint8_t* row, int first, int last, Visit visit) {
-  visitMarked(row, first, last, 1, visit);
-}
 
 }  // namespace evolin

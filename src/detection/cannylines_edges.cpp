@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "marked_pixels.h"
+
 namespace evolin::cannylines {
 namespace {
 
@@ -78,7 +80,9 @@ std::uint8_t EdgeFinder::sector(EdgePixel p) const {
 
 void EdgeFinder::sortSeeds() {
   for (int y = 0; y < maps_.height; ++y) {
-    visitEdges(edges_.row(y), 0, maps_.width, [&](int x) { unsorted_seeds_.push_back({x, y}); });
+    visitMarked(edges_.row(y), 0, maps_.width, 1, [&](int x) {
+      unsorted_seeds_.push_back({x, y});
+    });
   }
   sectors_.resize(maps_.strength.size());
   slots_.assign(kStrengths + 1, 0);

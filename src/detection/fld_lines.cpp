@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "marked_pixels.h"
+
 namespace evolin::fld {
 namespace {
 
@@ -71,7 +73,7 @@ const LineSegments& LineFinder::find(const cv::Mat& gray) {
     std::fill_n(edges_.row(y) + first, size_.width - first, std::uint8_t{0});
   }
   for (int y = 0; y < size_.height; ++y) {
-    visitEdges(edges_.row(y), 0, size_.width, [&](int x) {
+    visitMarked(edges_.row(y), 0, size_.width, 1, [&](int x) {
       follow(x, y);
       if (chain_.size() > static_cast<std::size_t>(parameters_.length_threshold)) {
         extractLines();

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
+#include "marked_pixels.h"
+
 namespace evolin::kht {
 namespace {
 
@@ -49,7 +51,7 @@ const std::vector<Kernel>& KernelFinder::find(CannyEdges* edges) {
 void KernelFinder::link(CannyEdges* edges) {
   chains_.clear();
   for (int y = 1; y < edges->height() - 1; ++y) {
-    visitEdges(edges->row(y), 1, edges->width() - 1, [&](int x) {
+    visitMarked(edges->row(y), 1, edges->width() - 1, 1, [&](int x) {
       const EdgePixel seed{x, y};
       edges->row(y)[x] = 0;
       chains_.pixels.push_back(seed);

@@ -5,9 +5,8 @@
 
 #include "evolin_ros/base/availability.h"
 #include "evolin_ros/base/error.h"
-#include "evolin_ros/base/stop_watch.h"
-#include "evolin_ros/inference/image_tensor.h"
 #include "lsdnet_decoding.h"
+#include "network_detector.h"
 
 namespace evolin {
 namespace {
@@ -45,35 +44,9 @@ lsdnet::DecodingOptions decodingOf(const LsdNetParameters& parameters) {
 }  // namespace
 
 /// The stages behind LsdNet.
-class LsdNet::Engine {
+class LsdNet::Engine : public NetworkDetector<lsdnet::Decoder> {
  public:
-  explicit Engine(const LsdNetParameters& parameters)
-      : clip_(parameters.clip),
-        filter_(parameters.selection),
-        decoder_(decodingOf(parameters)),
-        network_(interface(), parameters.network),
-        tensor_(inputOf(parameters)) {}
-
-  LineSegments detect(const Frame& frame, NetworkTimes* times) {
-    StopWatch watch;
-    const cv::Mat& input = tensor_.of(frame.image);
-    times->preparing = watch.milliseconds();
-    const cv::Mat& maps = network_.run(input).front();
-    times->forward = network_.lastMilliseconds();
-    watch.restart();
-    LineSegments lines = decoder_.decode(maps, frame.image.size());
-    lines = clip_ ? filter_.apply(std::move(lines), frame.image.size(), kOwner)
-                  : filter_.applyUncut(std::move(lines), frame.image.size(), kOwner);
-    times->decoding = watch.milliseconds();
-    return lines;
-  }
-
- private:
-  bool clip_;
-  LineFilter filter_;
-  lsdnet::Decoder decoder_;
-  Network network_;
-  ImageTensor tensor_;
+  using NetworkDetector::NetworkDetector;
 };
 
 LsdNet::LsdNet() = default;
@@ -90,7 +63,10 @@ void LsdNet::configure(const YAML::Node& parameters) {
   reader.read("clip", &read.clip);
   readSelection(&reader, &read.selection);
   reader.finish();
-  engine_ = std::make_unique<Engine>(read);
+  Network network(interface(), read.network);
+  const ImageTensorOptions input = inputOf(read);
+  engine_ = std::make_unique<Engine>(kOwner, read, std::move(network), input,
+                                     lsdnet::Decoder(decodingOf(read)));
   parameters_ = read;
 }
 

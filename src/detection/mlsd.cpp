@@ -5,9 +5,8 @@
 
 #include "evolin_ros/base/availability.h"
 #include "evolin_ros/base/error.h"
-#include "evolin_ros/base/stop_watch.h"
-#include "evolin_ros/inference/image_tensor.h"
 #include "mlsd_decoding.h"
+#include "network_detector.h"
 
 namespace evolin {
 namespace {
@@ -44,35 +43,9 @@ mlsd::DecodingOptions decodingOf(const MlsdParameters& parameters) {
 }  // namespace
 
 /// The stages behind Mlsd.
-class Mlsd::Engine {
+class Mlsd::Engine : public NetworkDetector<mlsd::Decoder> {
  public:
-  explicit Engine(const MlsdParameters& parameters)
-      : clip_(parameters.clip),
-        filter_(parameters.selection),
-        decoder_(decodingOf(parameters)),
-        network_(interface(), parameters.network),
-        tensor_(inputOf(network_.inputShape())) {}
-
-  LineSegments detect(const Frame& frame, NetworkTimes* times) {
-    StopWatch watch;
-    const cv::Mat& input = tensor_.of(frame.image);
-    times->preparing = watch.milliseconds();
-    const cv::Mat& maps = network_.run(input).front();
-    times->forward = network_.lastMilliseconds();
-    watch.restart();
-    LineSegments lines = decoder_.decode(maps, frame.image.size());
-    lines = clip_ ? filter_.apply(std::move(lines), frame.image.size(), kOwner)
-                  : filter_.applyUncut(std::move(lines), frame.image.size(), kOwner);
-    times->decoding = watch.milliseconds();
-    return lines;
-  }
-
- private:
-  bool clip_;
-  LineFilter filter_;
-  mlsd::Decoder decoder_;
-  Network network_;
-  ImageTensor tensor_;
+  using NetworkDetector::NetworkDetector;
 };
 
 Mlsd::Mlsd() = default;
@@ -88,7 +61,10 @@ void Mlsd::configure(const YAML::Node& parameters) {
   reader.read("clip", &read.clip);
   readSelection(&reader, &read.selection);
   reader.finish();
-  engine_ = std::make_unique<Engine>(read);
+  Network network(interface(), read.network);
+  const ImageTensorOptions input = inputOf(network.inputShape());
+  engine_ = std::make_unique<Engine>(kOwner, read, std::move(network), input,
+                                     mlsd::Decoder(decodingOf(read)));
   parameters_ = read;
 }
 

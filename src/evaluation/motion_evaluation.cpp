@@ -14,11 +14,6 @@ namespace {
 /// Results that a front-end of several threads may give out before an earlier one.
 constexpr std::size_t kMostSwapped = 8;
 
-bool equal(const Camera& a, const Camera& b) {
-  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy && a.width == b.width &&
-         a.height == b.height;
-}
-
 void requireSize(const std::string& frame, ImageSize lines, ImageSize depth) {
   if (lines.width != depth.width || lines.height != depth.height) {
     throw Error("frame " + frame + ": lines are of an image of " + std::to_string(lines.width) +
@@ -57,15 +52,14 @@ MotionUpdate MotionEvaluation::setCamera(const Camera& camera) {
   MotionUpdate update;
   if (!camera_) {
     camera_ = camera;
-    if (std::any_of(camera.distortion.begin(), camera.distortion.end(),
-                    [](double value) { return value != 0; })) {
+    if (hasDistortion(camera)) {
       update.notes.emplace_back(
           "camera_info has a distortion; depth and poses take images and lines as rectified: "
           "repeatability and relative pose are wrong where they are not");
     }
     resolveAll(false, &update);
     advance(false, &update);
-  } else if (!camera_differs_ && !equal(*camera_, camera)) {
+  } else if (!camera_differs_ && !sameIntrinsics(*camera_, camera)) {
     camera_differs_ = true;
     update.notes.emplace_back(
         "camera_info changed within the sequence; the intrinsics of its first message are used for "

@@ -40,11 +40,6 @@ std::string sizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-bool sameIntrinsics(const Camera& a, const Camera& b) {
-  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
-         a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
-}
-
 }  // namespace
 
 std::string toString(Finding::Level level) {
@@ -214,8 +209,7 @@ void RecordingCheck::checkCamera(std::vector<Finding>* findings) const {
                          std::to_string(other_cameras_) + " messages have other intrinsics",
                          "the first ones are taken: give --camera where they are wrong"});
   }
-  if (std::any_of(camera_->distortion.begin(), camera_->distortion.end(),
-                  [](double value) { return value != 0; })) {
+  if (hasDistortion(*camera_)) {
     findings->push_back(
         {Level::kDoubt, subject,
          "has distortion (" + camera_->distortion_model + "), which the metrics do not look at",

@@ -79,4 +79,20 @@ void validateCamera(const Camera& camera, const std::string& source) {
   requireKnownDistortion(source, camera);
 }
 
+bool hasDistortion(const Camera& camera) {
+  // Without coefficients that differ from zero the image of an equidistant lens still grows with
+  // the angle.
+  return camera.distortion_model == "equidistant"
+             ? !camera.distortion.empty()
+             : std::any_of(camera.distortion.begin(), camera.distortion.end(),
+                           [](double coefficient) { return coefficient != 0; });
+}
+
+bool sameIntrinsics(const Camera& a, const Camera& b) {
+  const bool same_lens = (!hasDistortion(a) && !hasDistortion(b)) ||
+                         (a.distortion_model == b.distortion_model && a.distortion == b.distortion);
+  return same_lens && a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+         a.cx == b.cx && a.cy == b.cy;
+}
+
 }  // namespace evolin

@@ -40,15 +40,15 @@ LensDistortion::LensDistortion(const Camera& camera) {
   checked.depth_factor = 1;
   validateCamera(checked, "camera " + camera.name);
   std::copy(camera.distortion.begin(), camera.distortion.end(), d_.begin());
-  if (camera.distortion_model == "equidistant" && !camera.distortion.empty()) {
-    // Without coefficients the image of an equidistant lens still grows with the angle.
+  if (!hasDistortion(camera)) {
+    return;
+  }
+  if (camera.distortion_model == "equidistant") {
     model_ = Model::kEquidistant;
-  } else if (std::any_of(d_.begin(), d_.end(), [](double value) { return value != 0; })) {
+  } else {
     model_ = Model::kPolynomial;
     tilt_ = tiltOf(d_[12], d_[13]);
     untilt_ = tilt_.inverse();
-  } else {
-    return;
   }
   end_ = findReach();
   reach_ = model_ == Model::kEquidistant ? std::tan(end_) : end_;

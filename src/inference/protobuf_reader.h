@@ -97,4 +97,16 @@ class Reader {
   std::string_view rest_;
 };
 
+/// Calls `visit(number)` for each whole number of a repeated field, packed or one by one.
+template <typename Visit>
+void visitNumbers(const Field& field, Visit visit) {
+  if (field.wire != Wire::kBytes) {
+    visit(field.value);
+    return;
+  }
+  for (Reader packed(field.bytes); !packed.atEnd();) {
+    visit(packed.varint());
+  }
+}
+
 }  // namespace evolin::protobuf

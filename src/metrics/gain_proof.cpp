@@ -24,10 +24,11 @@
 // Neither need be the best there is. The matching given may serve as N, and its s shrink as the
 // search for prices goes on: it is broken off where they are small enough, mostly half-way.
 //
-// Where all that fails, the choice of predicted pixels may be at fault: of a level's pixels beyond what
-// can be matched, the matching may have left out those that would be cheap. N remains a matching of
-// most pairs at every level when such a pixel takes the place of a dear one of the same level and
-// part, for as long as all can be matched at once. The bound is tried again after a handful of exchanges.
+// Where all that fails, the choice of predicted pixels may be at fault: of a level's pixels beyond
+// what can be matched, the matching may have left out those that would be cheap. N remains a
+// matching of most pairs at every level when such a pixel takes the place of a dear one of the same
+// level and part, for as long as all can be matched at once. The bound is tried again after a
+// handful of exchanges.
 #include "gain_proof.h"
 
 #include <algorithm>

@@ -91,18 +91,13 @@ MatchVerification verifyByPose(const SpatialLines& first, const SpatialLines& se
   RobustPoseOptions robust;
   robust.threshold = options.threshold;
   const RelativePose pose = RobustPoseEstimator(robust).estimate(with_depth, camera);
-  if (!pose.found()) {
-    result.reason = pose.reason;
+  result.failure = pose.failure;
+  if (pose.found() && pose.inliers.size() < options.min_inliers) {
+    result.failure = PoseFailure::kNoConsensus;
+  }
+  if (!result.found()) {
     return result;
   }
-  if (pose.inliers.size() < options.min_inliers) {
-    result.reason = std::to_string(pose.inliers.size()) + " of " +
-                    std::to_string(with_depth.size()) +
-                    " matches with depth agree on a motion, expected at least " +
-                    std::to_string(options.min_inliers);
-    return result;
-  }
-  result.found = true;
   const Pose& forward = pose.first_to_second;
   const Pose backward = inverse(forward);
   for (std::size_t place = 0; place < matches.size(); ++place) {

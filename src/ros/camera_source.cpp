@@ -24,11 +24,6 @@ namespace {
 /// camera_info is sent with every image, so that it is late by little.
 constexpr std::chrono::seconds kFirstCamera(2);
 
-bool isDistorted(const Camera& camera) {
-  return std::any_of(camera.distortion.begin(), camera.distortion.end(),
-                     [](double coefficient) { return coefficient != 0; });
-}
-
 std::string sizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
@@ -106,7 +101,7 @@ void CameraSource::fill(Frame* frame) {
     frame->camera = camera_;
     info = info_;
   }
-  if (rectify_ == Rectify::kRefuse && isDistorted(*frame->camera)) {
+  if (rectify_ == Rectify::kRefuse && hasDistortion(*frame->camera)) {
     throw Error("the camera has distortion (" + frame->camera->distortion_model +
                 ") and ~rectify is refuse; remap 'image' to the rectified image, or set ~rectify "
                 "to true");
@@ -123,7 +118,7 @@ void CameraSource::rectify(const sensor_msgs::CameraInfoConstPtr& info, Frame* f
                 " but its camera_info, with region of interest and binning, is for " +
                 sizeText(camera.width, camera.height));
   }
-  if (!isDistorted(camera) && isRectified(*info)) {
+  if (!hasDistortion(camera) && isRectified(*info)) {
     return;
   }
   cv::Mat rectified;

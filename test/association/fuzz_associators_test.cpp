@@ -18,12 +18,16 @@
 #include "evolin_ros/association/lk_tracking_associator.h"
 #include "evolin_ros/association/oracle_associator.h"
 #include "evolin_ros/association/random_associator.h"
+#include "evolin_ros/association/verified_associator.h"
 #include "evolin_ros/base/error.h"
+#include "test/association/textured_images.h"
 #include "test/support/fuzz_images.h"
 #include "test/support/plugin_names.h"
 
 namespace evolin {
 namespace {
+
+using test::segment;
 
 struct Method {
   std::string title;  ///< plug-in's name, and what its parameters make of it
@@ -31,6 +35,7 @@ struct Method {
   std::function<std::unique_ptr<LineAssociator>()> make;
   std::string parameters;
   bool reads_images;
+  bool one_way = false;  ///< several lines of the first frame may have the same one in the second
 };
 
 /// For the names of tests that fail.
@@ -43,13 +48,30 @@ Method method(const std::string& name, bool reads_images, const std::string& tit
           parameters, reads_images};
 }
 
+Method oneWay(Method method) {
+  method.one_way = true;
+  return method;
+}
+
+/// As the loader hands every associator out, with the matches verified.
+template <typename Associator>
+Method verified(const std::string& name) {
+  return {
+      name + "_verified", name,
+      [name] { return std::make_unique<VerifiedAssociator>(name, std::make_shared<Associator>()); },
+      "{verify: pose}", true};
+}
+
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
       method<GeometricAssociator>("geometric", true),
       method<GeometricAssociator>("geometric", false, "geometric_none", "{prediction: none}"),
       method<GeometricAssociator>("geometric", false, "geometric_pose", "{prediction: pose}"),
       method<LbdAssociator>("lbd", true),
-      method<LbdAssociator>("lbd", true, "lbd_one_way", "{cross_check: false}"),
+      oneWay(method<LbdAssociator>("lbd", true, "lbd_one_way", "{cross_check: false}")),
+      method<LbdAssociator>("lbd", true, "lbd_gated",
+                            "{max_ratio: 0.9, max_displacement: 50, max_angle: 30}"),
+      verified<LbdAssociator>("lbd"),
       method<LbdBinaryAssociator>("lbd_binary", true),
       method<LkTrackingAssociator>("lk_tracking", true),
       method<LkTrackingAssociator>("lk_tracking", true, "lk_tracking_deep",
@@ -73,24 +95,12 @@ class FuzzedAssociator : public ::testing::TestWithParam<Method> {
     }
   }
 
-  /// Several lines of the first frame may have the same one in the second.
-  static bool oneWay() { return GetParam().parameters == "{cross_check: false}"; }
-
   static std::unique_ptr<LineAssociator> configured() {
     std::unique_ptr<LineAssociator> associator = GetParam().make();
     associator->configure(YAML::Load(GetParam().parameters));
     return associator;
   }
 };
-
-LineSegment lineOf(double x1, double y1, double x2, double y2) {
-  LineSegment line;
-  line.x1 = x1;
-  line.y1 = y1;
-  line.x2 = x2;
-  line.y2 = y2;
-  return line;
-}
 
 /// Without length, tiny, equal, turned, along and beyond the borders, enormous, not finite; then
 /// some anywhere.
@@ -101,25 +111,25 @@ LineSegments hostileLines(cv::Size size, test::RandomLines* random) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double most = std::numeric_limits<double>::max();
   LineSegments lines = {
-      lineOf(0, 0, 0, 0),
-      lineOf(right / 2, bottom / 2, right / 2 + 1e-9, bottom / 2),
-      lineOf(right / 2, bottom / 2, right / 2 + 0.5, bottom / 2 + 0.5),
-      lineOf(0, 0, right, bottom),
-      lineOf(right, bottom, 0, 0),
-      lineOf(0, 0, right, bottom),
-      lineOf(-0.5, -0.5, right + 0.5, -0.5),
-      lineOf(right + 0.5, -0.5, right + 0.5, bottom + 0.5),
-      lineOf(-30, bottom / 3, right + 40, bottom / 2),
-      lineOf(-200, -100, -10, -300),
-      lineOf(right + 5, 0, right + 500, bottom),
-      lineOf(-32767, 3, 32767, 5),
-      lineOf(-32768, 3, 32768, 5),
-      lineOf(0, -1e9, 5, 1e9),
-      lineOf(-1e30, 0, 1e30, 1e30),
-      lineOf(-most, -most, most, most),
-      lineOf(nan, 0, 10, 10),
-      lineOf(0, 0, infinity, 5),
-      lineOf(nan, nan, nan, nan),
+      segment(0, 0, 0, 0),
+      segment(right / 2, bottom / 2, right / 2 + 1e-9, bottom / 2),
+      segment(right / 2, bottom / 2, right / 2 + 0.5, bottom / 2 + 0.5),
+      segment(0, 0, right, bottom),
+      segment(right, bottom, 0, 0),
+      segment(0, 0, right, bottom),
+      segment(-0.5, -0.5, right + 0.5, -0.5),
+      segment(right + 0.5, -0.5, right + 0.5, bottom + 0.5),
+      segment(-30, bottom / 3, right + 40, bottom / 2),
+      segment(-200, -100, -10, -300),
+      segment(right + 5, 0, right + 500, bottom),
+      segment(-32767, 3, 32767, 5),
+      segment(-32768, 3, 32768, 5),
+      segment(0, -1e9, 5, 1e9),
+      segment(-1e30, 0, 1e30, 1e30),
+      segment(-most, -most, most, most),
+      segment(nan, 0, 10, 10),
+      segment(0, 0, infinity, 5),
+      segment(nan, nan, nan, nan),
   };
   for (const LineSegment& line : random->anywhere(30, size.width, size.height)) {
     lines.push_back(line);
@@ -234,14 +244,16 @@ TEST_P(FuzzedAssociator, GivesTheSameSoundMatchesEachTime) {
     const FrameLines without = frameLines(image.name, image.image, {}, 20000000, depth);
     LineMatches matches;
     ASSERT_NO_THROW(matches = one->match(first, second)) << image.name;
-    ASSERT_NO_FATAL_FAILURE(expectSoundMatches(matches, first, second, oneWay(), image.name));
+    ASSERT_NO_FATAL_FAILURE(
+        expectSoundMatches(matches, first, second, GetParam().one_way, image.name));
     ASSERT_NO_FATAL_FAILURE(
         expectEqualMatches(one->match(first, second), matches, image.name + ", again"));
     ASSERT_NO_FATAL_FAILURE(expectEqualMatches(other->match(afresh(first), afresh(second)), matches,
                                                image.name + ", by another"));
     LineMatches behind;
     ASSERT_NO_THROW(behind = one->match(first, ahead(second))) << image.name;
-    ASSERT_NO_FATAL_FAILURE(expectSoundMatches(behind, first, second, oneWay(), image.name));
+    ASSERT_NO_FATAL_FAILURE(
+        expectSoundMatches(behind, first, second, GetParam().one_way, image.name));
     EXPECT_TRUE(one->match(first, without).empty()) << image.name;
     EXPECT_TRUE(one->match(without, second).empty()) << image.name;
     found += matches.size();
@@ -259,7 +271,8 @@ TEST_P(FuzzedAssociator, TakesImagesOf8192Squared) {
   const FrameLines second = frameLines("8192x8192, on", rolled(image), lines, 20000000, depth);
   LineMatches matches;
   ASSERT_NO_THROW(matches = configured()->match(first, second));
-  ASSERT_NO_FATAL_FAILURE(expectSoundMatches(matches, first, second, oneWay(), "8192x8192"));
+  ASSERT_NO_FATAL_FAILURE(
+      expectSoundMatches(matches, first, second, GetParam().one_way, "8192x8192"));
   expectEqualMatches(configured()->match(afresh(first), afresh(second)), matches, "by another");
 }
 

@@ -176,6 +176,19 @@ TEST_F(LbdAssociatorTest, LimitsTheAngleWhateverTheEndpointsOrder) {
   EXPECT_TRUE(narrow.match(first, texturedFrame({segment(50, 50, 150, 53)})).empty());
 }
 
+// Its direction can be computed all the same: that of the x axis.
+TEST_F(LbdAssociatorTest, NoLimitLetsALineThroughThatIsNotFinite) {
+  const LineSegments level = {segment(50, 50, 150, 50)};
+  const LineSegments endless = {segment(0, 0, std::numeric_limits<double>::infinity(), 5)};
+  DescriptorChoice choice(2);
+  for (const double max_angle : {30.0, 89.0}) {
+    choice.max_angle = max_angle;
+    EXPECT_TRUE(matchingRules(choice, level, level).may_match(0, 0));
+    EXPECT_FALSE(matchingRules(choice, level, endless).may_match(0, 0)) << max_angle;
+    EXPECT_FALSE(matchingRules(choice, endless, endless).may_match(0, 0)) << max_angle;
+  }
+}
+
 TEST_F(LbdAssociatorTest, DropsPairsByDistanceAndByRatio) {
   LineSegments moved = someLines();
   for (LineSegment& line : moved) {

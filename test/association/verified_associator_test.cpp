@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <any>
 #include <memory>
-#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
@@ -17,6 +17,7 @@
 #include "evolin_ros/association/random_associator.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/dataset/synthetic/synthetic_sequence.h"
+#include "evolin_ros/geometry/lens_distortion.h"
 
 namespace evolin {
 namespace {
@@ -102,6 +103,7 @@ TEST(VerifiedAssociator, KeepsNothingOfPairsByChanceAndCountsThem) {
   const MatchCounts counts = filter->counts();
   EXPECT_EQ(counts.at("pairs of frames verified"), 3U);
   EXPECT_EQ(counts.at("pairs of frames without a motion, all their matches dropped"), 3U);
+  EXPECT_EQ(counts.at("pairs of frames without a motion: no consensus"), 3U);
   EXPECT_EQ(counts.at("matches kept by it"), 0U);
   EXPECT_GT(counts.at("matches before verification"), 100U);
 }
@@ -249,6 +251,80 @@ TEST_F(VerifiedNotebook, GivesTheDescriptionBackWhenTheInnerOneFails) {
   notebook_->fails_ = false;
   EXPECT_GT(verified_.match(frame, frame).size(), 30U);
   EXPECT_EQ(notebook_->described_, 2) << "the other frame's and this one's once";
+}
+
+/// The frame as a camera of half the resolution has it.
+FrameLines halved(FrameLines frame) {
+  Camera& camera = *frame.frame.camera;
+  cv::resize(frame.frame.depth, frame.frame.depth, cv::Size(), 0.5, 0.5, cv::INTER_NEAREST);
+  const auto half = [](double pixel) { return (pixel + 0.5) / 2 - 0.5; };
+  camera.width /= 2;
+  camera.height /= 2;
+  camera.fx /= 2;
+  camera.fy /= 2;
+  camera.cx = half(camera.cx);
+  camera.cy = half(camera.cy);
+  for (LineSegment& line : frame.lines) {
+    line.x1 = half(line.x1);
+    line.y1 = half(line.y1);
+    line.x2 = half(line.x2);
+    line.y2 = half(line.y2);
+  }
+  return frame;
+}
+
+/// The frame as seen through a lens.
+FrameLines behindALens(FrameLines frame) {
+  Camera& camera = *frame.frame.camera;
+  camera.distortion_model = "plumb_bob";
+  camera.distortion = {-0.3, 0.1, 0.001, -0.002};
+  const LensDistortion lens(camera);
+  const auto direction = [&](double x, double y) {
+    return Eigen::Vector2d((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy);
+  };
+  cv::Mat map(frame.frame.depth.size(), CV_32FC2);
+  for (int y = 0; y < map.rows; ++y) {
+    for (int x = 0; x < map.cols; ++x) {
+      const auto at = lens.undistort(direction(x, y));
+      map.at<cv::Vec2f>(y, x) = at ? cv::Vec2f(static_cast<float>(camera.fx * at->x() + camera.cx),
+                                               static_cast<float>(camera.fy * at->y() + camera.cy))
+                                   : cv::Vec2f(-1000, -1000);
+    }
+  }
+  cv::Mat depth;
+  cv::remap(frame.frame.depth, depth, map, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+            cv::Scalar(0));
+  frame.frame.depth = depth;
+  for (LineSegment& line : frame.lines) {
+    const Eigen::Vector2d first = lens.distort(direction(line.x1, line.y1)).value();
+    const Eigen::Vector2d second = lens.distort(direction(line.x2, line.y2)).value();
+    line.x1 = camera.fx * first.x() + camera.cx;
+    line.y1 = camera.fy * first.y() + camera.cy;
+    line.x2 = camera.fx * second.x() + camera.cx;
+    line.y2 = camera.fy * second.y() + camera.cy;
+  }
+  return frame;
+}
+
+TEST_F(VerifiedNotebook, TakesEachFramesOwnCamera) {
+  configure("{verify: pose}");
+  const std::size_t all = verified_.match(freshFrame(0), freshFrame(0)).size();
+  ASSERT_GT(all, 30U);
+  const FrameLines half = halved(freshFrame(0));
+  EXPECT_GE(verified_.match(freshFrame(0), half).size(), 0.9 * all);
+  EXPECT_GE(verified_.match(half, freshFrame(0)).size(), 0.9 * all);
+
+  FrameLines lens = behindALens(freshFrame(0));
+  const std::size_t through_lens = verified_.match(freshFrame(0), lens).size();
+  EXPECT_GE(through_lens, 0.9 * all);
+  EXPECT_GE(verified_.match(lens, freshFrame(0)).size(), 0.9 * all);
+  lens.description.reset();
+  lens.frame.camera->distortion.clear();
+  const std::size_t without = verified_.match(freshFrame(0), lens).size();
+  RecordProperty("all", static_cast<int>(all));
+  RecordProperty("through_lens", static_cast<int>(through_lens));
+  RecordProperty("as_if_there_were_no_lens", static_cast<int>(without));
+  EXPECT_LT(without, 0.8 * all);
 }
 
 TEST_F(VerifiedNotebook, NamesTheFrameThatLacksDepthOrTheCamera) {

@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <regex>
 #include <set>
 
 #include "evolin_ros/evaluation/evaluation_settings.h"
 #include "test/support/expect_error.h"
+#include "test/support/plugin_names.h"
 #include "test/support/temporary_folder.h"
 
 namespace evolin {
@@ -183,15 +181,8 @@ std::set<std::string> pluginsOf(const std::vector<BenchmarkMethod>& methods) {
 
 /// The methods of a plug-in description; what plays recorded results is none.
 std::set<std::string> shippedPlugins(const std::string& file) {
-  std::ifstream stream(std::filesystem::path(EVOLIN_SOURCE_DIR) / "plugins" / file);
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
-  const std::regex name("<class name=\"([^\"]+)\"");
-  std::set<std::string> names;
-  for (std::sregex_iterator found(text.begin(), text.end(), name); found != std::sregex_iterator();
-       ++found) {
-    names.insert((*found)[1]);
-  }
+  std::set<std::string> names =
+      test::pluginNames(std::filesystem::path(EVOLIN_SOURCE_DIR) / "plugins" / file);
   EXPECT_EQ(names.erase("recorded"), 1U) << file;
   return names;
 }

@@ -10,15 +10,9 @@
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/detection/line_detector.h"
+#include "test/support/fuzz_images.h"
 
 namespace evolin::test {
-
-inline cv::Mat noise(int rows, int cols, int type) {
-  cv::Mat image(rows, cols, type);
-  cv::RNG random(static_cast<std::uint64_t>(rows) * 1000 + cols);
-  random.fill(image, cv::RNG::UNIFORM, 0, 256);
-  return image;
-}
 
 /// Corners of the bright quadrilateral in quadrilateralImage(), in order.
 inline std::vector<cv::Point> corners() { return {{80, 40}, {260, 70}, {236, 205}, {56, 175}}; }
@@ -28,12 +22,6 @@ inline cv::Mat quadrilateralImage() {
   cv::Mat image(240, 320, CV_8UC1, cv::Scalar(40));
   cv::fillConvexPoly(image, corners(), cv::Scalar(200), cv::LINE_AA);
   return image;
-}
-
-inline std::vector<cv::Size> awkwardSizes() {
-  return {{1, 1}, {640, 1}, {1, 640}, {2, 2},   {3, 3},   {4, 4},   {5, 5},  {6, 6},
-          {7, 7}, {640, 2}, {2, 640}, {5, 64},  {64, 5},  {6, 64},  {64, 6}, {7, 200},
-          {9, 9}, {13, 8},  {16, 16}, {31, 33}, {64, 64}, {203, 97}};
 }
 
 /// Finite lines, a score exactly where scores are promised.
@@ -53,7 +41,7 @@ inline void expectSurvivesAwkwardImages(LineDetector* detector) {
       const std::string what = std::to_string(size.width) + "x" + std::to_string(size.height);
       Frame frame;
       frame.name = what;
-      frame.image = noise(size.height, size.width, type);
+      frame.image = uniformNoise(size, type);
       LineSegments lines;
       ASSERT_NO_THROW(lines = detector->detect(frame)) << what;
       expectSound(lines, *detector, what);
@@ -67,7 +55,7 @@ inline void expectSurvivesAwkwardImages(LineDetector* detector) {
       expectSound(lines, *detector, what);
     }
   }
-  const cv::Mat whole = noise(300, 400, CV_8UC1);
+  const cv::Mat whole = uniformNoise({400, 300}, CV_8UC1);
   Frame window;
   window.image = whole(cv::Rect(17, 23, 133, 151));
   Frame copy;

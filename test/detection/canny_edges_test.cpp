@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "marked_pixels.h"
 #include "test/detection/own_detectors.h"
 
 namespace evolin {
@@ -27,17 +28,20 @@ void expectEqualsOpenCv(const cv::Mat& image, double low, double high, const std
 }
 
 TEST(CannyEdges, EqualOpenCvs) {
-  std::vector<std::pair<std::string, cv::Mat>> images = test::adversarialImages();
+  std::vector<test::NamedImage> images = test::adversarialImages();
   cv::Mat smooth;
-  cv::GaussianBlur(test::noise(120, 160, CV_8UC1), smooth, cv::Size(5, 5), 1.5);
-  images.emplace_back("smooth noise", smooth);
-  images.emplace_back("quadrilateral", test::quadrilateralImage());
+  cv::GaussianBlur(test::uniformNoise({160, 120}, CV_8UC1), smooth, cv::Size(5, 5), 1.5);
+  images.push_back({"smooth noise", smooth});
+  images.push_back({"quadrilateral", test::quadrilateralImage()});
   for (const cv::Size& size : test::awkwardSizes()) {
     if (size.width > 1 && size.height > 1) {
-      images.emplace_back("awkward size", test::noise(size.height, size.width, CV_8UC1));
+      images.push_back({"awkward size", test::uniformNoise(size, CV_8UC1)});
     }
   }
-  for (const auto& [name, image] : images) {
+  for (auto& [name, image] : images) {
+    if (image.channels() == 3) {
+      cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
+    }
     expectEqualsOpenCv(image, 50, 50, name);
     expectEqualsOpenCv(image, 80, 200, name);
     expectEqualsOpenCv(image, 300.7, 20.9, name);
@@ -46,7 +50,7 @@ TEST(CannyEdges, EqualOpenCvs) {
 }
 
 TEST(CannyEdges, WindowsDoNotSeeWhatIsAroundThem) {
-  const cv::Mat whole = test::noise(80, 90, CV_8UC1);
+  const cv::Mat whole = test::uniformNoise({90, 80}, CV_8UC1);
   const cv::Mat window = whole(cv::Rect(11, 7, 40, 50));
   CannyEdges of_window;
   CannyEdges of_copy;
@@ -57,11 +61,11 @@ TEST(CannyEdges, WindowsDoNotSeeWhatIsAroundThem) {
   }
 }
 
-TEST(CannyEdges, VisitsWhatIsSetWhenItsTurnComes) {
+TEST(VisitMarked, VisitsWhatIsSetWhenItsTurnComes) {
   std::vector<std::uint8_t> row(40, 0);
   for (const int x : {0, 3, 7, 8, 17, 38, 39}) row[static_cast<std::size_t>(x)] = 1;
   std::vector<int> visited;
-  visitEdges(row.data(), 3, 39, [&](int x) {
+  visitMarked(row.data(), 3, 39, 1, [&](int x) {
     visited.push_back(x);
     row[8] = 0;
   });

@@ -36,7 +36,7 @@ TEST_F(EdLinesTest, FindsBothSidesOfABar) {
 // Noise has edges, but hardly a line that its gradients agree with.
 TEST_F(EdLinesTest, ValidationDropsWhatNoiseHas) {
   Frame frame;
-  frame.image = test::noise(240, 320, CV_8UC1);
+  frame.image = test::uniformNoise({320, 240}, CV_8UC1);
   EdLines without;
   without.configure(YAML::Load("{validate: false}"));
   const std::size_t all = without.detect(frame).size();
@@ -99,7 +99,7 @@ TEST_F(EdLinesTest, EqualsOpenCvOnNoiseBeforeValidation) {
     GTEST_SKIP() << OpenCvEdLines().whyUnavailable();
   }
   Frame frame;
-  cv::GaussianBlur(test::noise(300, 400, CV_8UC1), frame.image, cv::Size(5, 5), 1.2);
+  cv::GaussianBlur(test::uniformNoise({400, 300}, CV_8UC1), frame.image, cv::Size(5, 5), 1.2);
   expectEqualsOpenCv("noise", "{validate: false}", "{nfa_validation: false}", {frame}, 0.98);
   for (const char* parameter : {"gradient_threshold: 40", "anchor_threshold: 8", "scan_interval: 3",
                                 "min_line_length: 12"}) {

@@ -71,7 +71,7 @@ void expectEqualsOpenCv(const std::string& parameters, const Frame& frame) {
 
 TEST_F(FldTest, EqualsOpenCvOnNoise) {
   Frame frame;
-  cv::GaussianBlur(test::noise(300, 400, CV_8UC1), frame.image, cv::Size(5, 5), 1.2);
+  cv::GaussianBlur(test::uniformNoise({400, 300}, CV_8UC1), frame.image, cv::Size(5, 5), 1.2);
   ASSERT_GT(detector_.detect(frame).size(), 300U);
   for (const char* parameters :
        {"{}", "{length_threshold: 5}", "{length_threshold: 20, distance_threshold: 3}",

@@ -68,7 +68,7 @@ const std::vector<Method>& methods() {
       method<Kht>("kht"),
       method<Lsd>("lsd"),
       method<Lsd>("lsd", "{compatible: false}", "lsd_article"),
-      network<LsdNet>("lsdnet", [] { return test::sharedModel("lsdnet.onnx"); }),
+      network<LsdNet>("lsdnet", test::lsdNetModel),
       method<Lswms>("lswms"),
       method<Lswms>("lswms", "{compatible: true}", "lswms_compatible"),
       network<Mlsd>("mlsd", test::mlsdTiny512),

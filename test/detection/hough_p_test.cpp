@@ -82,7 +82,7 @@ TEST_F(HoughPTest, SurvivesCoarseTablesOfSmallImages) {
   coarse.configure(YAML::Load("{rho: 10, theta: 90, threshold: 1, min_length: 0}"));
   for (const cv::Size& size : test::awkwardSizes()) {
     Frame frame;
-    frame.image = test::noise(size.height, size.width, CV_8UC1);
+    frame.image = test::uniformNoise(size, CV_8UC1);
     ASSERT_NO_THROW(coarse.detect(frame)) << size.width << "x" << size.height;
   }
 }

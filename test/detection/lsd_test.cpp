@@ -57,7 +57,7 @@ TEST_F(LsdTest, FindsHardlyALineInNoise) {
   constexpr int kImages = 5;
   for (int i = 0; i < kImages; ++i) {
     Frame frame;
-    frame.image = test::noise(200 + i, 300, CV_8UC1);
+    frame.image = test::uniformNoise({300, 200 + i}, CV_8UC1);
     lines += article.detect(frame).size();
   }
   EXPECT_LE(lines, static_cast<std::size_t>(3 * kImages));

@@ -66,7 +66,7 @@ TEST_F(LsdNetTest, SurvivesAwkwardImages) {
        {cv::Size(1, 1), cv::Size(640, 1), cv::Size(3, 7), cv::Size(203, 97)}) {
     for (const int type : {CV_8UC1, CV_8UC3}) {
       Frame frame;
-      frame.image = test::noise(size.height, size.width, type);
+      frame.image = test::uniformNoise(size, type);
       test::expectSound(lsdnet->detect(frame), *lsdnet, std::to_string(size.width));
     }
   }

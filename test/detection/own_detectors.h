@@ -8,11 +8,11 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "test/detection/awkward_images.h"
 #include "test/support/allocations.h"
+#include "test/support/fuzz_images.h"
 #include "test/support/golden.h"
 
 namespace evolin::test {
@@ -88,33 +88,7 @@ inline void expectEqualLines(const LineSegments& lines, const LineSegments& othe
 }
 
 /// Images that are hard on line detectors, with their names.
-inline std::vector<std::pair<std::string, cv::Mat>> adversarialImages() {
-  std::vector<std::pair<std::string, cv::Mat>> images;
-  const cv::Size size(160, 120);
-  const auto drawn = [&](const std::string& name, auto value) {
-    cv::Mat image(size, CV_8UC1);
-    for (int y = 0; y < image.rows; ++y) {
-      for (int x = 0; x < image.cols; ++x) {
-        image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(value(x, y));
-      }
-    }
-    images.emplace_back(name, image);
-  };
-  drawn("saturated", [](int, int) { return 255; });
-  drawn("checkerboard", [](int x, int y) { return (x + y) % 2 * 255; });
-  drawn("coarse checkerboard", [](int x, int y) { return (x / 8 + y / 8) % 2 * 255; });
-  drawn("columns of a pixel", [](int x, int) { return x % 2 * 255; });
-  drawn("rows of a pixel", [](int, int y) { return y % 2 * 255; });
-  drawn("rows of two pixels", [](int, int y) { return y / 2 % 2 * 255; });
-  drawn("ramp", [](int x, int y) { return (x + y) % 256; });
-  drawn("saw", [](int x, int y) { return (8 * x + 3 * y) % 256; });
-  drawn("rings", [](int x, int y) { return (x * x + y * y) / 64 % 256; });
-  drawn("frame", [](int x, int y) { return x == 0 || y == 0 || x == 159 || y == 119 ? 255 : 0; });
-  images.emplace_back("noise", noise(size.height, size.width, CV_8UC1));
-  cv::Mat binary = noise(size.height, size.width, CV_8UC1) > 128;
-  images.emplace_back("binary noise", binary);
-  return images;
-}
+inline std::vector<NamedImage> adversarialImages() { return patterns({160, 120}); }
 
 /// Lines have a length and lie in the image (to the outer edge of its pixels).
 inline void expectLinesInImage(const LineSegments& lines, cv::Size size, const std::string& what) {

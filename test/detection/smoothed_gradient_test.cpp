@@ -76,14 +76,14 @@ TEST(SmoothedGradient, EqualsOpenCvsFilters) {
     for (const int kernel : {1, 3, 5, 7, 15}) {
       // OpenCV's filter does not mirror more than once.
       if (std::min(size.width, size.height) > kernel / 2 || kernel == 1) {
-        expectEqualsOpenCv(test::noise(size.height, size.width, CV_8UC1), kernel, 30);
+        expectEqualsOpenCv(test::uniformNoise(size, CV_8UC1), kernel, 30);
       }
     }
   }
 }
 
 TEST(SmoothedGradient, EqualsOpenCvsFiltersOnWindowsIntoImages) {
-  const cv::Mat whole = test::noise(90, 120, CV_8UC1);
+  const cv::Mat whole = test::uniformNoise({120, 90}, CV_8UC1);
   cv::Mat window = whole(cv::Rect(7, 11, 61, 43));
   SmoothedGradient gradient(7, 1.0);
   GradientMaps from_window;

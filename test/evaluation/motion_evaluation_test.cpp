@@ -7,57 +7,24 @@
 #include <cmath>
 
 #include "test/evaluation/sample_frames.h"
-#include "test/metrics/spatial_support.h"
+#include "test/evaluation/wall_walk.h"
 
 namespace evolin {
 namespace {
 
 using test::annotated;
 using test::detected;
+using test::kMillisecond;
+using test::kPeriod;
 using test::line;
+using test::linesAt;
 using test::matchSet;
-
-constexpr Stamp kPeriod = kNanosecondsPerSecond / 10;
-constexpr Stamp kMillisecond = 1000000;
-
-Stamp stampOf(int frame) { return (frame + 1) * kPeriod; }
-
-/// The camera goes to the right in front of a wall with three lines: its image moves by `pixels` a
-/// frame.
-LineSegments linesAt(int frame, double pixels = 1) {
-  const double shift = pixels * frame;
-  return {line(40 - shift, 20, 70 - shift, 40, 0.9, 1),
-          line(50 - shift, 60, 90 - shift, 61, 0.8, 2),
-          line(60 - shift, 80, 61 - shift, 110, 0.7, 3)};
-}
-
-StampedPose poseAt(int frame, double pixels = 1) {
-  return {stampOf(frame), test::poseRight(pixels * frame)};
-}
-
-DepthMap wall() { return DepthMap(test::wallDepth()); }
-
-MotionOptions shortSteps() {
-  MotionOptions options;
-  options.repeatabilities.frame_steps = {1};
-  return options;
-}
-
-Camera camera() {
-  Camera result = test::wallCamera();
-  result.width = test::kWallSide;
-  result.height = test::kWallSide;
-  return result;
-}
-
-LineMatches same(std::size_t count) {
-  LineMatches matches(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    matches[i].first = static_cast<std::uint32_t>(i);
-    matches[i].second = static_cast<std::uint32_t>(i);
-  }
-  return matches;
-}
+using test::poseAt;
+using test::same;
+using test::shortSteps;
+using test::stampOf;
+using test::wall;
+using test::wallWalkCamera;
 
 /// Everything that updates brought.
 struct Collected {
@@ -82,7 +49,7 @@ void addFrame(MotionEvaluation* motion, int frame, Collected* collected) {
 TEST(MotionEvaluation, FindsTheLinesOfAWallAgain) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   for (int frame = 0; frame < 4; ++frame) addFrame(&motion, frame, &collected);
   ASSERT_EQ(collected.repeatability.size(), 3U) << "scored at once: depth and pose are exact";
   EXPECT_EQ(collected.repeatability[2].first_stamp, stampOf(2));
@@ -104,7 +71,7 @@ TEST(MotionEvaluation, ScoreThresholdsComeBesidesAllLines) {
   options.repeatability_score_thresholds = {0.75, 0.95};
   MotionEvaluation motion(options);
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   for (int frame = 0; frame < 3; ++frame) addFrame(&motion, frame, &collected);
   ASSERT_TRUE(motion.repeatabilityByScore().has_value());
   const RepeatabilityMetrics& by_score = *motion.repeatabilityByScore();
@@ -128,7 +95,7 @@ TEST(MotionEvaluation, LinesWithoutScoresHaveTheirRepeatabilityWithoutThresholds
   options.repeatability_score_thresholds = {0.75};
   MotionEvaluation motion(options);
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   for (int frame = 0; frame < 3; ++frame) {
     LineSegments lines = linesAt(frame);
     lines[1].score = kNoScore;
@@ -148,7 +115,7 @@ TEST(MotionEvaluation, CountsStepsOverFramesWithoutLines) {
   options.repeatabilities.frame_steps = {2};
   MotionEvaluation motion(options);
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   for (int frame = 0; frame < 6; ++frame) {
     collected.take(motion.addImage(stampOf(frame)));
     if (frame != 1) addFrame(&motion, frame, &collected);
@@ -161,28 +128,6 @@ TEST(MotionEvaluation, CountsStepsOverFramesWithoutLines) {
   }
 }
 
-TEST(PassEvaluation, FrameStepsDoNotCountImagesWithStampsOfTheirOwn) {
-  for (const Stamp offset : {kMillisecond, 45 * kMillisecond}) {
-    PassOptions options;
-    options.motion = shortSteps();
-    options.motion.repeatabilities.frame_steps = {2};
-    options.families = {MetricFamily::kRepeatability};
-    PassEvaluation pass(options);
-    pass.setCamera(camera());
-    for (int frame = 0; frame < 20; ++frame) {
-      pass.addImage(stampOf(frame) + offset);
-      pass.addDepth(stampOf(frame), wall());
-      pass.addPose(poseAt(frame));
-      pass.addLines(detected(stampOf(frame), linesAt(frame)));
-    }
-    const Report report = pass.report(true);
-    ASSERT_EQ(report.repeatability.records.size(), 18U) << offset;
-    for (const RepeatabilityRecord& record : report.repeatability.records) {
-      EXPECT_EQ(record.stamp - record.first_stamp, 2 * kPeriod);
-    }
-  }
-}
-
 TEST(MotionEvaluation, WaitsForDepthAndPosesOfAnyOrder) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
@@ -192,7 +137,7 @@ TEST(MotionEvaluation, WaitsForDepthAndPosesOfAnyOrder) {
   for (int frame = 0; frame < 3; ++frame) collected.take(motion.addPose(poseAt(frame)));
   for (int frame = 0; frame < 3; ++frame) collected.take(motion.addDepth(stampOf(frame), wall()));
   EXPECT_TRUE(collected.repeatability.empty()) << "no camera yet";
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   EXPECT_EQ(collected.repeatability.size(), 2U);
 }
 
@@ -201,7 +146,7 @@ TEST(MotionEvaluation, TakesTheNearestDepthWithinTheTolerance) {
                              20 * kMillisecond, 21 * kMillisecond}) {
     MotionEvaluation motion(shortSteps());
     Collected collected;
-    collected.take(motion.setCamera(camera()));
+    collected.take(motion.setCamera(wallWalkCamera()));
     for (int frame = 0; frame < 3; ++frame) {
       collected.take(motion.addPose(poseAt(frame)));
       collected.take(motion.addLines(detected(stampOf(frame), linesAt(frame))));
@@ -221,7 +166,7 @@ TEST(MotionEvaluation, TakesTheNearestDepthWithinTheTolerance) {
 TEST(MotionEvaluation, CountsWhatIsMissing) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   for (int frame = 0; frame < 6; ++frame) {
     if (frame != 1) collected.take(motion.addDepth(stampOf(frame), wall()));
     // Without a neighbour within 0.1 s there is no interpolation.
@@ -257,7 +202,7 @@ TEST(MotionEvaluation, AFullBufferGoesOnAndCounts) {
 TEST(MotionEvaluation, GivesMatchedPairsOutAsTasks) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   for (int frame = 0; frame < 2; ++frame) {
     collected.take(motion.addGroundTruth(annotated(stampOf(frame), linesAt(frame))));
     addFrame(&motion, frame, &collected);
@@ -287,7 +232,7 @@ TEST(MotionEvaluation, GivesMatchedPairsOutAsTasks) {
 TEST(MotionEvaluation, MatchesWaitForTheirFrames) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   collected.take(motion.addMatches(matchSet(stampOf(0), stampOf(1), "detector", same(3))));
   collected.take(motion.addMatches(matchSet(stampOf(1), stampOf(2), "detector", same(3))));
   for (int frame = 0; frame < 2; ++frame) addFrame(&motion, frame, &collected);
@@ -300,7 +245,7 @@ TEST(MotionEvaluation, MatchesWaitForTheirFrames) {
 TEST(MotionEvaluation, LinesThatAreNotFiniteHaveAReasonOfTheirOwn) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   for (int frame = 0; frame < 3; ++frame) {
     collected.take(motion.addDepth(stampOf(frame), wall()));
     collected.take(motion.addPose(poseAt(frame)));
@@ -321,41 +266,10 @@ TEST(MotionEvaluation, LinesThatAreNotFiniteHaveAReasonOfTheirOwn) {
   EXPECT_NE(collected.notes[0].find("row 2"), std::string::npos) << collected.notes[0];
 }
 
-TEST(PassEvaluation, APoseEstimateSaysOverHowManyImagesItReaches) {
-  PassOptions options;
-  options.frame_step = 5;  // what somebody said
-  options.families = {MetricFamily::kPose};
-  for (const bool own_stamps : {true, false}) {
-    PassEvaluation pass(options);
-    std::vector<int> steps;
-    const auto take = [&](EvaluationUpdate update) {
-      test::runTasks({}, &pass, &update);
-      for (const PoseRecord& record : update.poses) steps.push_back(record.frame_step);
-    };
-    take(pass.setCamera(camera()));
-    for (int frame = 0; frame < 5; ++frame) {
-      take(pass.addImage(stampOf(frame) + (own_stamps ? 0 : 45 * kMillisecond)));
-      take(pass.addDepth(stampOf(frame), wall()));
-      take(pass.addPose(poseAt(frame)));
-      take(pass.addLines(detected(stampOf(frame), linesAt(frame))));
-      if (frame >= 2) {
-        take(pass.addMatches(matchSet(stampOf(frame - 2), stampOf(frame), "detector", same(3))));
-      }
-    }
-    EXPECT_EQ(steps, (std::vector<int>{2, 2, 2}));
-    EXPECT_EQ(pass.poseStep(), 2);
-    EXPECT_EQ(pass.report(true).pose.frame_step, 2);
-    take(pass.addMatches(matchSet(stampOf(3), stampOf(4), "detector", same(3))));
-    EXPECT_EQ(pass.poseStep(), 0) << "not the same for all";
-    EXPECT_EQ(pass.report(true).pose.frame_step, 0);
-    EXPECT_EQ(pass.report(true).pose.records.back().frame_step, 1);
-  }
-}
-
 TEST(MotionEvaluation, ACopyThatFinishesLeavesTheOriginalWaiting) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   addFrame(&motion, 0, &collected);
   collected.take(motion.addLines(detected(stampOf(1), linesAt(1))));
   MotionEvaluation copy = motion;
@@ -373,9 +287,9 @@ TEST(MotionEvaluation, ACopyThatFinishesLeavesTheOriginalWaiting) {
 
 TEST(MotionEvaluation, NamesACameraThatChanges) {
   MotionEvaluation motion(shortSteps());
-  EXPECT_TRUE(motion.setCamera(camera()).notes.empty());
-  EXPECT_TRUE(motion.setCamera(camera()).notes.empty());
-  Camera other = camera();
+  EXPECT_TRUE(motion.setCamera(wallWalkCamera()).notes.empty());
+  EXPECT_TRUE(motion.setCamera(wallWalkCamera()).notes.empty());
+  Camera other = wallWalkCamera();
   other.fx += 1;
   EXPECT_EQ(motion.setCamera(other).notes.size(), 1U);
   EXPECT_TRUE(motion.setCamera(other).notes.empty()) << "said once";
@@ -384,7 +298,7 @@ TEST(MotionEvaluation, NamesACameraThatChanges) {
 TEST(MotionEvaluation, RefusesDepthOfAnotherSize) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   collected.take(motion.addPose(poseAt(0)));
   collected.take(motion.addLines(detected(stampOf(0), linesAt(0))));
   const cv::Mat half(test::kWallSide / 2, test::kWallSide / 2, CV_32FC1, cv::Scalar(2));
@@ -396,7 +310,7 @@ TEST(MotionEvaluation, RefusesDepthOfAnotherSize) {
 }
 
 TEST(MotionEvaluation, NamesDistortionAndDepthThatHasLeft) {
-  Camera distorted = camera();
+  Camera distorted = wallWalkCamera();
   distorted.distortion = {0.1, 0, 0, 0, 0};
   MotionOptions options = shortSteps();
   options.depth_buffer = 2;
@@ -420,61 +334,12 @@ TEST(MotionEvaluation, NamesDistortionAndDepthThatHasLeft) {
 TEST(MotionEvaluation, LateLinesAreCountedAndNotScored) {
   MotionEvaluation motion(shortSteps());
   Collected collected;
-  collected.take(motion.setCamera(camera()));
+  collected.take(motion.setCamera(wallWalkCamera()));
   for (const int frame : {0, 2, 3}) addFrame(&motion, frame, &collected);
   EXPECT_EQ(collected.repeatability.size(), 2U) << "frame 1 was never heard of";
   addFrame(&motion, 1, &collected);
   EXPECT_EQ(motion.counts().late, 1U);
   EXPECT_EQ(collected.repeatability.size(), 2U);
-}
-
-TEST(PassEvaluation, AllFamiliesComeTogetherInTheReport) {
-  PassOptions options;
-  options.motion.repeatabilities.frame_steps = {1};
-  PassEvaluation pass(options);
-  const auto take = [&](EvaluationUpdate update) { test::runTasks({}, &pass, &update); };
-  take(pass.setCamera(camera()));
-  for (int frame = 0; frame < 5; ++frame) {
-    take(pass.addDepth(stampOf(frame), wall()));
-    take(pass.addPose(poseAt(frame)));
-    take(pass.addGroundTruth(annotated(stampOf(frame), linesAt(frame))));
-    take(pass.addLines(detected(stampOf(frame), linesAt(frame))));
-    if (frame > 0) {
-      take(pass.addMatches(matchSet(stampOf(frame - 1), stampOf(frame), "detector", same(3))));
-    }
-  }
-  EXPECT_FALSE(pass.waiting());
-  const Report report = pass.report(true);
-  EXPECT_EQ(report.heatmap.frames, 5U);
-  EXPECT_EQ(report.heatmap.counts.at(0).fScore(), 1);
-  EXPECT_EQ(report.repeatability.rows.at(0).pairs, 4U);
-  EXPECT_EQ(report.repeatability.rows.at(0).figures->repeatability, 1);
-  EXPECT_EQ(report.detected_pairs.evaluated, 4U);
-  EXPECT_EQ(report.detected_association.fScore(), 1);
-  EXPECT_EQ(report.pose.errors.pairs(), 4U);
-  EXPECT_EQ(report.pose.records.size(), 4U);
-  EXPECT_EQ(report.tracks.tracks, 3U);
-  EXPECT_EQ(report.tracks.mean_length, 5);
-  EXPECT_EQ(report.tracks.identity_switches, 0U);
-  EXPECT_EQ(report.coverage.no_depth + report.coverage.no_pose, 0U);
-  EXPECT_NE(motionsToTum(report, false).find("0.200000 0.015625 0 0 0 0 0 1"), std::string::npos)
-      << motionsToTum(report, false);
-}
-
-TEST(PassEvaluation, SkippedTasksAreCounted) {
-  PassOptions options;
-  options.families = {MetricFamily::kDetection, MetricFamily::kHeatmap};
-  PassEvaluation pass(options);
-  pass.addGroundTruth(test::handTruth(1));
-  const EvaluationUpdate update = pass.addLines(test::handLines(1));
-  ASSERT_EQ(update.tasks.size(), 1U);
-  EXPECT_TRUE(pass.waiting());
-  pass.skip(update.tasks[0]);
-  EXPECT_FALSE(pass.waiting());
-  const Report report = pass.report(true);
-  EXPECT_EQ(report.coverage.heatmap_skipped, 1U);
-  EXPECT_EQ(report.coverage.evaluated, 1U);
-  EXPECT_EQ(whyNoHeatmap(report), "not evaluated: all frames were skipped");
 }
 
 }  // namespace

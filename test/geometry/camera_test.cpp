@@ -103,5 +103,43 @@ TEST(ValidateCamera, CountsTheCoefficientsOfEachModel) {
   }
 }
 
+TEST(HasDistortion, IsFalseForZerosButOfAnEquidistantLens) {
+  Camera camera = goodCamera();
+  EXPECT_FALSE(hasDistortion(camera));
+  camera.distortion = {0, 0, 0, 0, 0};
+  EXPECT_FALSE(hasDistortion(camera));
+  camera.distortion[3] = -1e-9;
+  EXPECT_TRUE(hasDistortion(camera));
+  camera.distortion_model = "equidistant";
+  camera.distortion = {0, 0, 0, 0};
+  EXPECT_TRUE(hasDistortion(camera));
+  camera.distortion.clear();
+  EXPECT_FALSE(hasDistortion(camera));
+}
+
+TEST(SameIntrinsics, LooksAtTheRaysAndTheSizeAlone) {
+  const Camera camera = goodCamera();
+  Camera other = camera;
+  other.name = "another";
+  other.depth_factor = 1000;
+  other.distortion_model = "equidistant";
+  EXPECT_TRUE(sameIntrinsics(camera, other));
+  other = camera;
+  other.distortion = {0, 0, 0, 0};
+  EXPECT_TRUE(sameIntrinsics(camera, other)) << "neither moves anything";
+  other.distortion = {0, 0.1, 0, 0};
+  EXPECT_FALSE(sameIntrinsics(camera, other));
+  for (double Camera::*member : {&Camera::fx, &Camera::fy, &Camera::cx, &Camera::cy}) {
+    other = camera;
+    other.*member += 1e-9;
+    EXPECT_FALSE(sameIntrinsics(camera, other));
+  }
+  for (int Camera::*member : {&Camera::width, &Camera::height}) {
+    other = camera;
+    other.*member += 1;
+    EXPECT_FALSE(sameIntrinsics(other, camera));
+  }
+}
+
 }  // namespace
 }  // namespace evolin

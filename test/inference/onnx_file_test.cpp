@@ -116,6 +116,15 @@ TEST_F(OnnxFileTest, WeightsMayBeListedByTheirType) {
   expectRefused(withWeight(7, 1, onnx::varint(7U << 3U | 5U) + "abcd"), "no whole numbers");
 }
 
+TEST_F(OnnxFileTest, WeightsAreInTheFileItself) {
+  const std::string raw = onnx::bytes(9, std::string(8, 'a'));
+  EXPECT_NO_THROW(read(withWeight(1, 2, raw + onnx::number(14, 0)))) << "said outright";
+  expectRefused(withWeight(1, 2, raw + onnx::number(14, 1)), "in other files");
+  expectRefused(withWeight(1, 2, raw + onnx::bytes(14, "")), "in other files");
+  expectRefused(withWeight(1, 2, raw + onnx::bytes(13, onnx::bytes(1, "location"))),
+                "in other files");
+}
+
 TEST_F(OnnxFileTest, TensorsOfANodeAreWeightsToo) {
   const std::string tensor = onnx::number(1, 2) + onnx::number(2, 7) + onnx::bytes(8, "t");
   for (const unsigned field : {5U, 10U}) {

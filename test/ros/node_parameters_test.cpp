@@ -10,6 +10,7 @@
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
+#include "test/support/environment.h"
 #include "test/support/expect_error.h"
 #include "test/support/fuzz.h"
 #include "test/support/temporary_folder.h"
@@ -18,31 +19,8 @@ namespace evolin::ros_shell {
 namespace {
 
 using test::expectError;
+using test::Variable;
 using XmlRpc::XmlRpcValue;
-
-/// Sets or clears a variable for the life of a test.
-class Variable {
- public:
-  Variable(const char* name, const std::optional<std::string>& value) : name_(name) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    set(value);
-  }
-  ~Variable() { set(before_); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  void set(const std::optional<std::string>& value) {
-    if (value) {
-      setenv(name_, value->c_str(), 1);
-    } else {
-      unsetenv(name_);
-    }
-  }
-
-  const char* name_;
-  std::optional<std::string> before_;
-};
 
 XmlRpcValue sampleValue() {
   XmlRpcValue value;

@@ -2,33 +2,35 @@
 #pragma once
 
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 namespace evolin::test {
 
-/// Sets an environment variable and puts the old value back.
+/// Sets an environment variable, or clears it without a value, and puts the old one back.
 class Variable {
  public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    const char* old = std::getenv(name);
-    had_ = old != nullptr;
-    old_ = had_ ? old : "";
-    setenv(name, value.c_str(), 1);
-  }
-  ~Variable() {
-    if (had_) {
-      setenv(name_, old_.c_str(), 1);
-    } else {
-      unsetenv(name_);
+  Variable(const char* name, const std::optional<std::string>& value) : name_(name) {
+    if (const char* before = std::getenv(name)) {
+      before_ = before;
     }
+    set(value);
   }
+  ~Variable() { set(before_); }
   Variable(const Variable&) = delete;
   Variable& operator=(const Variable&) = delete;
 
  private:
+  void set(const std::optional<std::string>& value) {
+    if (value) {
+      setenv(name_, value->c_str(), 1);
+    } else {
+      unsetenv(name_);
+    }
+  }
+
   const char* name_;
-  bool had_;
-  std::string old_;
+  std::optional<std::string> before_;
 };
 
 }  // namespace evolin::test

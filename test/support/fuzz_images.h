@@ -39,6 +39,21 @@ inline cv::Mat uniformNoise(cv::Size size, int type, RandomLines* random) {
   return image;
 }
 
+/// The same for a size.
+inline cv::Mat uniformNoise(cv::Size size, int type) {
+  RandomLines random(static_cast<std::uint64_t>(size.height) * 1000 +
+                     static_cast<std::uint64_t>(size.width));
+  return uniformNoise(size, type, &random);
+}
+
+/// Shapes that have made a filter or a table run empty.
+inline std::vector<cv::Size> awkwardSizes() {
+  return {{1, 1},   {640, 1}, {1, 640}, {2, 2},    {3, 3},    {4, 4},   {5, 5},
+          {6, 6},   {7, 7},   {640, 2}, {2, 640},  {640, 3},  {3, 640}, {5, 64},
+          {64, 5},  {6, 64},  {64, 6},  {7, 200},  {9, 9},    {13, 8},  {16, 16},
+          {31, 33}, {64, 64}, {97, 64}, {203, 97}, {160, 120}};
+}
+
 /// Flat, saturated, periodic, steep, smooth and random: one of each kind.
 inline std::vector<NamedImage> patterns(cv::Size size) {
   const int w = size.width;
@@ -143,14 +158,10 @@ inline cv::Mat hugeImage() {
   return image;
 }
 
-/// Every pattern in every shape that has made a filter or a table run empty, and random scenes.
+/// Every pattern in every awkward size, and random scenes.
 inline std::vector<NamedImage> fuzzImages() {
-  const std::vector<cv::Size> sizes = {{1, 1},   {640, 1}, {1, 640}, {2, 2},   {3, 3},
-                                       {4, 4},   {5, 5},   {7, 7},   {640, 2}, {2, 640},
-                                       {640, 3}, {3, 640}, {5, 64},  {64, 5},  {9, 9},
-                                       {13, 8},  {16, 16}, {31, 33}, {97, 64}, {160, 120}};
   std::vector<NamedImage> images;
-  for (const cv::Size& size : sizes) {
+  for (const cv::Size& size : awkwardSizes()) {
     for (NamedImage& one : patterns(size)) {
       one.name += ", " + std::to_string(size.width) + "x" + std::to_string(size.height);
       images.push_back(std::move(one));

@@ -1,6 +1,7 @@
 // Any associator with its matches verified: those stay that one motion of the camera explains.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,9 +17,10 @@ constexpr const char* kVerifyPrefix = "verify";
 
 /// Takes `verify` (none, pose), `verify_threshold` and `verify_min_inliers` out of the parameters
 /// and gives the others to the associator inside; without them, and with `verify: none`, it is that
-/// associator and nothing else. With `verify: pose` it needs depth and the camera besides, images
-/// are rectified, and of two frames whose matches agree on no motion it keeps no match. Throws
-/// Error naming the frame where depth or the camera is missing.
+/// associator and nothing else. With `verify: pose` it needs depth and the camera besides, and of
+/// two frames whose matches agree on no motion it keeps no match. Each frame's own camera counts,
+/// with its lens distortion; the threshold is in pixels of the first one's, without distortion.
+/// Throws Error naming the frame where depth or the camera is missing.
 class VerifiedAssociator : public LineAssociator {
  public:
   /// `name` is the plug-in's, for messages.
@@ -38,6 +40,7 @@ class VerifiedAssociator : public LineAssociator {
   MatchVerificationOptions options_;
   std::size_t pairs_ = 0;
   std::size_t pairs_without_motion_ = 0;
+  std::map<PoseFailure, std::size_t> failures_;  ///< of these pairs
   std::size_t matches_ = 0;
   std::size_t kept_ = 0;
   std::size_t without_depth_ = 0;

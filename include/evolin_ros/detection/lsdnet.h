@@ -17,8 +17,8 @@ namespace evolin {
 struct LsdNetParameters {
   NetworkOptions network;
   std::string channel_order = "rgb";  ///< of the network's input: rgb (the authors') or bgr
-  bool compatible = false;  ///< as in the authors' code, lines along rows or columns of the
-                            ///< network's grid become several of no length
+  bool compatible = false;   ///< as in the authors' code, lines along rows or columns of the
+                             ///< network's grid become several of no length
   bool single_pass = false;  ///< regions grow in the whole image, not in quarters that are stitched
   bool clip = false;         ///< cut at the outer edges of the image's pixels
   DetectorSelection selection;

@@ -26,4 +26,11 @@ struct Camera {
 /// wrong number of coefficients.
 void validateCamera(const Camera& camera, const std::string& source);
 
+/// Whether the lens moves anything: coefficients that are not all zero, or any for `equidistant`.
+bool hasDistortion(const Camera& camera);
+
+/// Whether a pixel of one is the same ray in the other, and the images are of one size; name and
+/// depth factor do not count.
+bool sameIntrinsics(const Camera& a, const Camera& b);
+
 }  // namespace evolin

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "evolin_ros/geometry/camera.h"
@@ -34,8 +33,10 @@ struct MatchVerification {
   /// Places in the matches given, rising; empty when no motion was found.
   std::vector<std::size_t> kept;
   std::size_t without_depth = 0;  ///< matches of which neither line has depth
-  bool found = false;             ///< a motion that enough matches agree on
-  std::string reason;             ///< a sentence where it was not
+  /// Why there is no motion that enough matches agree on; kNone where there is one.
+  PoseFailure failure = PoseFailure::kNone;
+
+  bool found() const { return failure == PoseFailure::kNone; }
 };
 
 /// The motion comes from the matches with depth in both frames, by RobustPoseEstimator. Of all
