@@ -59,7 +59,7 @@ Method network(const std::string& name, std::function<test::Model()> model) {
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
       method<CannyLines>("cannylines"),
-      method<CannyLines>("cannylines", "{compatible: true}", "cannylines_compatible"),
+      method<CannyLines>("cannylines", "{compatible: false}", "cannylines_exact"),
       method<EdLines>("edlines"),
       method<Elsed>("elsed"),
       method<Fld>("fld"),

@@ -15,8 +15,8 @@ struct CannyLinesParameters {
   double meaningful_gradient = 70;  ///< |dx| + |dy| of the Sobel filter, 1 to 2040
   double fit_error = 1.0;           ///< root mean square of lines that merge, pixels, 0.01 to 10
   bool validate = true;             ///< lines that noise would have are dropped
-  bool compatible = false;  ///< lines are fitted in single precision, as in the authors' program,
-                            ///< and hang on where in the image they are
+  bool compatible = true;  ///< lines are fitted in single precision, as in the authors' program:
+                           ///< they depend a little on where in the image they lie
   DetectorSelection selection;
 };
 
