@@ -67,12 +67,12 @@ void FrontEnd::process(std::vector<StreamPart> parts, FrontEndSink* sink) {
     }
   }
   std::vector<Outcome> outcomes(parts.size());
-  pairs_.clear();
   detect(parts, &outcomes);
   join(parts, &outcomes);
   match();
   collectTimes();
   give(parts, outcomes, sink);
+  pairs_.clear();  // or the images of this batch would stay in memory beside those of the next
 }
 
 void FrontEnd::detect(const std::vector<StreamPart>& parts, std::vector<Outcome>* outcomes) {
