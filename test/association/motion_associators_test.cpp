@@ -10,6 +10,7 @@
 #include "evolin_ros/association/oracle_associator.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/dataset/synthetic/synthetic_sequence.h"
+#include "test/association/halved_frame.h"
 #include "test/association/textured_images.h"
 #include "test/support/expect_error.h"
 
@@ -166,33 +167,9 @@ TEST(MotionAssociators, AWindowIntoALargerImageIsFollowedAsItsCopy) {
     EXPECT_EQ(matches[i].distance, copied[i].distance) << i;
   }
 }
-
-/// The frame as a camera of half the resolution has it.
-FrameLines halved(const FrameLines& frame) {
-  const auto half = [](double x) { return (x + 0.5) / 2 - 0.5; };
-  FrameLines small = frame;
-  cv::resize(frame.frame.image, small.frame.image, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
-  small.frame.depth = cv::Mat();
-  cv::resize(frame.frame.depth, small.frame.depth, cv::Size(), 0.5, 0.5, cv::INTER_NEAREST);
-  Camera& camera = *small.frame.camera;
-  camera.width /= 2;
-  camera.height /= 2;
-  camera.fx /= 2;
-  camera.fy /= 2;
-  camera.cx = half(camera.cx);
-  camera.cy = half(camera.cy);
-  for (LineSegment& line : small.lines) {
-    line.x1 = half(line.x1);
-    line.y1 = half(line.y1);
-    line.x2 = half(line.x2);
-    line.y2 = half(line.y2);
-  }
-  return small;
-}
-
 TEST(MotionAssociators, EachFrameIsSeenByItsOwnCamera) {
   const FrameLines& first = roomFrames()[0];
-  const FrameLines second = halved(roomFrames()[1]);
+  const FrameLines second = test::halved(roomFrames()[1]);
   for (const auto& associator :
        {make<OracleAssociator>("{}"), make<GeometricAssociator>("{prediction: pose}")}) {
     const Shares forwards = compare(first, second, associator->match(first, second));

@@ -18,6 +18,7 @@
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/dataset/synthetic/synthetic_sequence.h"
 #include "evolin_ros/geometry/lens_distortion.h"
+#include "test/association/halved_frame.h"
 
 namespace evolin {
 namespace {
@@ -253,26 +254,6 @@ TEST_F(VerifiedNotebook, GivesTheDescriptionBackWhenTheInnerOneFails) {
   EXPECT_EQ(notebook_->described_, 2) << "the other frame's and this one's once";
 }
 
-/// The frame as a camera of half the resolution has it.
-FrameLines halved(FrameLines frame) {
-  Camera& camera = *frame.frame.camera;
-  cv::resize(frame.frame.depth, frame.frame.depth, cv::Size(), 0.5, 0.5, cv::INTER_NEAREST);
-  const auto half = [](double pixel) { return (pixel + 0.5) / 2 - 0.5; };
-  camera.width /= 2;
-  camera.height /= 2;
-  camera.fx /= 2;
-  camera.fy /= 2;
-  camera.cx = half(camera.cx);
-  camera.cy = half(camera.cy);
-  for (LineSegment& line : frame.lines) {
-    line.x1 = half(line.x1);
-    line.y1 = half(line.y1);
-    line.x2 = half(line.x2);
-    line.y2 = half(line.y2);
-  }
-  return frame;
-}
-
 /// The frame as seen through a lens.
 FrameLines behindALens(FrameLines frame) {
   Camera& camera = *frame.frame.camera;
@@ -310,7 +291,7 @@ TEST_F(VerifiedNotebook, TakesEachFramesOwnCamera) {
   configure("{verify: pose}");
   const std::size_t all = verified_.match(freshFrame(0), freshFrame(0)).size();
   ASSERT_GT(all, 30U);
-  const FrameLines half = halved(freshFrame(0));
+  const FrameLines half = test::halved(freshFrame(0));
   EXPECT_GE(verified_.match(freshFrame(0), half).size(), 0.9 * all);
   EXPECT_GE(verified_.match(half, freshFrame(0)).size(), 0.9 * all);
 
