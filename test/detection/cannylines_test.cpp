@@ -25,7 +25,10 @@ TEST_F(CannyLinesTest, NamesWhatIsWrongWithAParameter) {
 }
 
 TEST_F(CannyLinesTest, FindsBothSidesOfABar) {
-  test::expectFindsBothSidesOfABar(&detector_, 90, 1e-6);
+  test::expectFindsBothSidesOfABar(&detector_, 90, 1e-3);
+  CannyLines exact;
+  exact.configure(YAML::Load("{compatible: false}"));
+  test::expectFindsBothSidesOfABar(&exact, 90, 1e-6);
 }
 
 TEST_F(CannyLinesTest, ValidationDropsWhatNoiseHas) {
