@@ -326,6 +326,10 @@ def main():
         signal.signal(signal.SIGINT, signal.default_int_handler)
     # A machine whose own name does not resolve runs the tests all the same; what ROS writes beside
     # its logs stays in the build.
+    root = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+    # Read by builds with AddressSanitizer only.
+    os.environ.setdefault("LSAN_OPTIONS", "print_suppressions=0:suppressions="
+                          + os.path.join(root, "test", "sanitizers", "leak.supp"))
     if "ROS_IP" not in os.environ:
         os.environ.setdefault("ROS_HOSTNAME", "localhost")
     logs = os.path.join(arguments.build, "test_logs")
