@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace evolin {
 
@@ -12,11 +13,6 @@ namespace {
 
 /// Where the Huber kernel is off; its square is finite.
 constexpr double kNoHuber = 1e100;
-
-// The end is looked ahead to now and then only: it takes a sixth of a step's time.
-constexpr int kFirstLook = 6;
-constexpr int kLooks = 3;
-bool isLook(int steps) { return steps >= kFirstLook && steps % kLooks == 0; }
 
 Matrix6d hessianOf(const LineSums& sums) {
   Matrix6d hessian;
@@ -92,7 +88,7 @@ bool solveDamped(const LineSums& sums, double lambda, Vector6d* step) {
 LineDescent::LineDescent(const EvolinPoseOptions& options, LineTable* table)
     : options_(options), table_(table) {}
 
-LineSums LineDescent::sumUp(const Pose& motion, double delta, bool with_equations) {
+LineSums LineDescent::sumUp(const Pose& motion, double delta) {
   const Eigen::Matrix3d rotation = motion.rotation.toRotationMatrix();
   LineMotion line_motion;
   for (int row = 0; row < 3; ++row) {
@@ -101,8 +97,11 @@ LineSums LineDescent::sumUp(const Pose& motion, double delta, bool with_equation
     }
     line_motion.translation[row] = motion.translation[row];
   }
+  if (std::exchange(keep_, false)) {
+    table_->keepResiduals();
+  }
   LineSums sums;
-  lineSums(table_->view(), line_motion, delta, with_equations, &sums);
+  lineSums(table_->view(), line_motion, delta, &sums);
   return sums;
 }
 
@@ -110,7 +109,7 @@ void LineDescent::start(bool huber) {
   constexpr double kInitialDamping = 1e-5;
   delta_ = huber ? options_.huber_delta : kNoHuber;
   motion_ = Pose();
-  sums_ = sumUp(motion_, delta_, true);
+  sums_ = sumUp(motion_, delta_);
   lambda_ = kInitialDamping * largestDiagonal(sums_);
   growth_ = 2;
   steps_ = 0;
@@ -118,9 +117,8 @@ void LineDescent::start(bool huber) {
 }
 
 void LineDescent::step() {
-  if (isLook(steps_ + 1)) {
-    table_->keepResiduals();
-  }
+  keep_ = true;
+  std::copy_backward(predicted_, predicted_ + 2, predicted_ + 3);
   double gain = 0;
   int trial = 0;
   do {
@@ -153,11 +151,11 @@ LineDescent::Trial LineDescent::tryStep() {
     return {false, -std::numeric_limits<double>::infinity()};
   }
   const Pose candidate = compose(expMotion(step), motion_);
-  const LineSums tried = sumUp(candidate, delta_, true);
+  const LineSums tried = sumUp(candidate, delta_);
   const Eigen::Map<const Vector6d> right_side(sums_.right_side);
+  predicted_[0] = step.dot(lambda_ * step + right_side);
   // The constant keeps the ratio defined at the optimum.
-  const double predicted = step.dot(lambda_ * step + right_side) + 1e-3;
-  const double gain = (sums_.cost - tried.cost) / predicted;
+  const double gain = (sums_.cost - tried.cost) / (predicted_[0] + 1e-3);
   const bool accepted = gain > 0 && std::isfinite(tried.cost);
   if (accepted) {
     motion_ = candidate;
@@ -166,14 +164,32 @@ LineDescent::Trial LineDescent::tryStep() {
   return {accepted, gain};
 }
 
-bool LineDescent::isSettled(double gate) const {
+/// How many steps like the last one are as long as all that are left, and some margin.
+double LineDescent::stepsToReach() const {
   constexpr double kMargin = 4;
+  constexpr double kMarginOfSeries = 8;
+  constexpr double kSlowest = 0.97;
+  // With few of them the steps shrink less evenly; they take little time.
+  constexpr std::size_t kManyMatches = 30;
+  const double all = kMargin * (options_.steps - steps_);
+  // The gain that is predicted goes with the square of a step.
+  const double ratio =
+      std::sqrt(std::max(predicted_[0] / predicted_[1], predicted_[1] / predicted_[2]));
+  // Also where the ratio is not a number.
+  if (table_->size() < kManyMatches || !(ratio < kSlowest)) {
+    return all;
+  }
+  return std::min(all, kMarginOfSeries * ratio / (1 - ratio));
+}
+
+bool LineDescent::isSettled(double gate) {
+  constexpr int kFirstLook = 4;
   // A residual that stands still while others move may move again.
   constexpr double kShareOfLargest = 0.1;
-  if (!isLook(steps_) || !straight_) {
+  if (steps_ < kFirstLook || !straight_) {
     return false;
   }
-  const double left = kMargin * (options_.steps - steps_);
+  const double left = stepsToReach();
   if (!table_->canTell(gate, left, 0)) {
     return false;
   }
@@ -182,7 +198,7 @@ bool LineDescent::isSettled(double gate) const {
 }
 
 Matrix6d LineDescent::covariance() {
-  const LineSums sums = sumUp(motion_, kNoHuber, true);
+  const LineSums sums = sumUp(motion_, kNoHuber);
   const double freedom = 2.0 * static_cast<double>(table_->size()) - 6;
   const Eigen::LLT<Matrix6d> factor(hessianOf(sums));
   if (!(freedom > 0) || factor.info() != Eigen::Success) {

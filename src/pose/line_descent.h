@@ -25,9 +25,9 @@ class LineDescent {
   int iterations() const { return iterations_; }
 
   /// Whether the steps that are left will hardly change on which side of `gate` any match ends up,
-  /// were each of them four times as long as the last one. Never so when fewer than min_active
-  /// would stay: the motion itself is the answer then.
-  bool isSettled(double gate) const;
+  /// with a margin of several times what they would do if they went on shrinking as the last three
+  /// did. Never so when fewer than min_active would stay: the motion itself is the answer then.
+  bool isSettled(double gate);
 
   /// Covariance of the motion, scaled by the residuals, all weights being one.
   Matrix6d covariance();
@@ -38,7 +38,8 @@ class LineDescent {
     double gain;
   };
 
-  LineSums sumUp(const Pose& motion, double delta, bool with_equations);
+  LineSums sumUp(const Pose& motion, double delta);
+  double stepsToReach() const;
   Trial tryStep();
 
   const EvolinPoseOptions& options_;
@@ -50,7 +51,9 @@ class LineDescent {
   double growth_ = 2;
   int steps_ = 0;  ///< since start()
   bool finished_ = true;
-  bool straight_ = false;  ///< the last step took its first trial
+  bool straight_ = false;     ///< the last step took its first trial
+  bool keep_ = false;         ///< the residuals, before the next are made
+  double predicted_[3] = {};  ///< gains of the last three steps, the newest first
   int iterations_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The loops for any processor, and the choice between them and the wide ones.
+// The loops for any processor, and the choice between them and those for some.
 #include "line_sums.h"
 
 #include <opencv2/core/utility.hpp>
@@ -9,18 +9,26 @@ namespace evolin {
 
 namespace generic {
 
-void lineSums(const LineTableView& table, const LineMotion& motion, double delta,
-              bool with_equations, LineSums* sums) {
-  with_equations ? LineLoops<TwoWide>::sum<true>(table, motion, delta, sums)
-                 : LineLoops<TwoWide>::sum<false>(table, motion, delta, sums);
+void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums) {
+  LineLoops<TwoWide>::sum(table, motion, delta, sums);
 }
 
 }  // namespace generic
 
-void lineSums(const LineTableView& table, const LineMotion& motion, double delta,
-              bool with_equations, LineSums* sums) {
-  static const bool has_wide = cv::checkHardwareSupport(CV_CPU_AVX2);
-  (has_wide ? wide::lineSums : generic::lineSums)(table, motion, delta, with_equations, sums);
+namespace {
+
+auto bestLoops() {
+  if (cv::checkHardwareSupport(CV_CPU_AVX_512F) && cv::checkHardwareSupport(CV_CPU_AVX_512VL)) {
+    return &roomy::lineSums;
+  }
+  return cv::checkHardwareSupport(CV_CPU_AVX2) ? &wide::lineSums : &generic::lineSums;
+}
+
+}  // namespace
+
+void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums) {
+  static const auto loops = bestLoops();
+  loops(table, motion, delta, sums);
 }
 
 }  // namespace evolin

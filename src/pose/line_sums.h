@@ -45,20 +45,20 @@ struct LineSums {
 };
 
 /// Sums up with a Huber kernel: cost e^2 and weight 1 up to |e| = `delta` (finite, above 0), beyond
-/// it cost delta (2 |e| - delta) and weight delta / |e|. Residuals go to the table. Without
-/// `with_equations` only the residuals and the cost are made. The same to the last bit whatever
-/// the processor: lanes are summed apart, without fused operations.
-void lineSums(const LineTableView& table, const LineMotion& motion, double delta,
-              bool with_equations, LineSums* sums);
+/// it cost delta (2 |e| - delta) and weight delta / |e|. Residuals go to the table. The same to the
+/// last bit whatever the processor: lanes are summed apart, without fused operations.
+void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums);
 
 namespace generic {
-void lineSums(const LineTableView& table, const LineMotion& motion, double delta,
-              bool with_equations, LineSums* sums);
+void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums);
 }
 /// For processors with AVX2 alone, where there are such.
 namespace wide {
-void lineSums(const LineTableView& table, const LineMotion& motion, double delta,
-              bool with_equations, LineSums* sums);
+void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums);
+}
+/// For processors with AVX-512 (F and VL): as wide as the last, with twice the registers.
+namespace roomy {
+void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums);
 }
 
 }  // namespace evolin

@@ -24,7 +24,6 @@ struct FourWide {
 template <class Vectors>
 class LineLoops {
  public:
-  template <bool with_equations>
   static void sum(const LineTableView& table, const LineMotion& motion, double delta,
                   LineSums* sums) {
     sums->cost = 0;
@@ -37,12 +36,12 @@ class LineLoops {
     for (std::size_t part = 0; part < kParts; ++part) {
       Sums of;
       clear(&of);
-      sumPart<with_equations>(table, part, motion, delta, &of);
+      sumPart(table, part, motion, delta, &of);
       sums->cost += Vectors::sum(of.cost);
-      for (int i = 0; with_equations && i < 21; ++i) {
+      for (int i = 0; i < 21; ++i) {
         sums->hessian[i] += Vectors::sum(of.hessian[i]);
       }
-      for (int i = 0; with_equations && i < 6; ++i) {
+      for (int i = 0; i < 6; ++i) {
         sums->right_side[i] -= Vectors::sum(of.pull[i]);
       }
     }
@@ -88,15 +87,21 @@ class LineLoops {
     Vector pull[6];
   };
 
-  /// Points whose derivatives are kept at a time, in vectors; they stay in the first cache.
-  static constexpr std::size_t kBlock = 64;
+  /// Rows whose derivatives are kept at a time, in vectors; they stay in the first cache.
+  static constexpr std::size_t kBlock = 32;
 
-  /// Of one block, in fractions of z: J = (c, p) / z.
-  struct Derivatives {
+  /// Of one of the two points of a row, in fractions of z: J = (c, p) / z, p = n - e (0, 0, 1).
+  struct OfPoint {
     Vector c0[kBlock], c1[kBlock], c2[kBlock];  ///< Y x p
-    Vector p0[kBlock], p1[kBlock], p2[kBlock];  ///< n - e (0, 0, 1)
-    Vector product[kBlock];                     ///< n . Y = e z
-    Vector weight[kBlock];                      ///< w / z^2
+    Vector p2[kBlock];
+    Vector product[kBlock];  ///< n . Y = e z
+    Vector weight[kBlock];   ///< w / z^2
+  };
+
+  struct Block {
+    OfPoint points[2];
+    /// Weighted sums over the two points.
+    Vector c0[kBlock], c1[kBlock];
   };
 
   static void clear(Sums* sums) {
@@ -109,162 +114,183 @@ class LineLoops {
     }
   }
 
-  /// All first points, then all second ones.
-  template <bool with_equations>
   static void sumPart(const LineTableView& table, std::size_t part, const LineMotion& motion,
                       double delta, Sums* sums) {
-    Derivatives block;
-    std::size_t filled = 0;
+    Block block;
     const std::size_t count = table.rows / kLineLanes;
-    for (int end = 0; end < 2; ++end) {
-      const Columns columns(table, end);
-      std::size_t size = 0;
-      for (std::size_t begin = 0; begin < count; begin += size) {
-        const std::size_t room = kBlock - filled;
-        size = count - begin < room ? count - begin : room;
-        derive<with_equations>(columns, begin, size, part, motion, delta, filled, &block,
-                               &sums->cost);
-        filled += size;
-        if (filled == kBlock) {
-          addProducts<with_equations>(block, filled, sums);
-          filled = 0;
-        }
-      }
+    for (std::size_t begin = 0; begin < count; begin += kBlock) {
+      const std::size_t size = count - begin < kBlock ? count - begin : kBlock;
+      const std::size_t offset = begin * kLineLanes + part * kWidth;
+      derive(table, offset, size, motion, delta, &block, &sums->cost);
+      const double* const normal_x = table.columns[kNormalX] + offset;
+      const double* const normal_y = table.columns[kNormalY] + offset;
+      addRotations(size, &block, sums);
+      addMixed(block, normal_x, normal_y, size, sums);
+      addTranslations(block, normal_x, normal_y, size, sums);
     }
-    addProducts<with_equations>(block, filled, sums);
   }
 
-  /// Residuals and cost of `size` vectors of points, and what their equations take, from place
-  /// `first` of the block.
-  template <bool with_equations>
-  static void derive(const Columns& columns, std::size_t begin, std::size_t size, std::size_t part,
-                     const LineMotion& motion, double delta, std::size_t first, Derivatives* block,
-                     Vector* cost_sum) {
+  static void derive(const LineTableView& table, std::size_t offset, std::size_t size,
+                     const LineMotion& motion, double delta, Block* block, Vector* cost_sum) {
+    const Columns columns[2] = {Columns(table, 0), Columns(table, 1)};
     const double* const r = motion.rotation;
     const double* const t = motion.translation;
     const Vector limit = Vector{} + delta;
     Vector cost = *cost_sum;
     for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t row = (begin + i) * kLineLanes + part * kWidth;
-      Vector px, py, pz, nx, ny, nz;
-      load(columns.x + row, &px);
-      load(columns.y + row, &py);
-      load(columns.z + row, &pz);
-      const Vector x = (r[0] * px + r[1] * py) + (r[2] * pz + t[0]);
-      const Vector y = (r[3] * px + r[4] * py) + (r[5] * pz + t[1]);
-      const Vector z = (r[6] * px + r[7] * py) + (r[8] * pz + t[2]);
-      load(columns.normal_x + row, &nx);
-      load(columns.normal_y + row, &ny);
-      load(columns.normal_z + row, &nz);
-      const Vector a = (nx * x + ny * y) + nz * z;
-      const Vector inverse = 1.0 / z;
-      const Vector e = a * inverse;
-      __builtin_memcpy(columns.residual + row, &e, sizeof(e));
-      const Vector size_e = absolute(e);
-      const Vector inner = size_e > limit ? limit : size_e;
-      cost += inner * (2.0 * size_e - inner);
-      if (with_equations) {
-        const std::size_t place = first + i;
+      const std::size_t row = offset + i * kLineLanes;
+      Vector nx, ny, nz;
+      load(columns[0].normal_x + row, &nx);
+      load(columns[0].normal_y + row, &ny);
+      load(columns[0].normal_z + row, &nz);
+      for (int end = 0; end < 2; ++end) {
+        Vector px, py, pz;
+        load(columns[end].x + row, &px);
+        load(columns[end].y + row, &py);
+        load(columns[end].z + row, &pz);
+        const Vector x = (r[0] * px + r[1] * py) + (r[2] * pz + t[0]);
+        const Vector y = (r[3] * px + r[4] * py) + (r[5] * pz + t[1]);
+        const Vector z = (r[6] * px + r[7] * py) + (r[8] * pz + t[2]);
+        const Vector a = (nx * x + ny * y) + nz * z;
+        // One division: 1 / z and the weight both come of 1 / (z max(|a|, delta |z|)).
+        const Vector size_a = absolute(a);
+        const Vector bound = limit * absolute(z);
+        const Vector larger = size_a > bound ? size_a : bound;
+        const Vector quotient = 1.0 / (z * larger);
+        const Vector e = a * (quotient * larger);
+        __builtin_memcpy(columns[end].residual + row, &e, sizeof(e));
+        const Vector size_e = absolute(e);
+        const Vector inner = size_e > limit ? limit : size_e;
+        cost += inner * ((size_e - inner) + size_e);
+        OfPoint& point = block->points[end];
         const Vector p2 = nz - e;
-        block->p0[place] = nx;
-        block->p1[place] = ny;
-        block->p2[place] = p2;
-        block->c0[place] = y * p2 - z * ny;
-        block->c1[place] = z * nx - x * p2;
-        block->c2[place] = x * ny - y * nx;
-        block->product[place] = a;
-        block->weight[place] = inverse * inverse * (delta / (size_e > limit ? size_e : limit));
+        point.p2[i] = p2;
+        point.c0[i] = y * p2 - z * ny;
+        point.c1[i] = z * nx - x * p2;
+        point.c2[i] = x * ny - y * nx;
+        point.product[i] = a;
+        point.weight[i] = limit * absolute(quotient);
       }
     }
     *cost_sum = cost;
   }
 
-  template <bool with_equations>
-  static void addProducts(const Derivatives& block, std::size_t size, Sums* sums) {
-    if (with_equations) {
-      addRotations(block, size, sums);
-      addMixed(block, size, sums);
-      addTranslations(block, size, sums);
-    }
-  }
+  // The products, in loops so small that their sums stay in registers.
 
-  // Rows of the upper triangle, in loops so small that their sums stay in registers.
-
-  static void addRotations(const Derivatives& block, std::size_t size, Sums* sums) {
+  static void addRotations(std::size_t size, Block* block, Sums* sums) {
     Vector h0 = sums->hessian[0], h1 = sums->hessian[1], h2 = sums->hessian[2];
-    Vector h3 = sums->hessian[3], h4 = sums->hessian[4], h5 = sums->hessian[5];
-    Vector h6 = sums->hessian[6], h7 = sums->hessian[7], h8 = sums->hessian[8];
-    Vector h9 = sums->hessian[9], h10 = sums->hessian[10];
+    Vector h5 = sums->hessian[5], h6 = sums->hessian[6], h7 = sums->hessian[7];
+    Vector h10 = sums->hessian[10];
     Vector pull0 = sums->pull[0], pull1 = sums->pull[1];
+    const OfPoint& f = block->points[0];
+    const OfPoint& s = block->points[1];
     for (std::size_t i = 0; i < size; ++i) {
-      const Vector weight = block.weight[i];
-      const Vector c0 = weight * block.c0[i];
-      const Vector c1 = weight * block.c1[i];
-      h0 += c0 * block.c0[i];
-      h1 += c0 * block.c1[i];
-      h2 += c0 * block.c2[i];
-      h3 += c0 * block.p0[i];
-      h4 += c0 * block.p1[i];
-      h5 += c0 * block.p2[i];
-      pull0 += c0 * block.product[i];
-      h6 += c1 * block.c1[i];
-      h7 += c1 * block.c2[i];
-      h8 += c1 * block.p0[i];
-      h9 += c1 * block.p1[i];
-      h10 += c1 * block.p2[i];
-      pull1 += c1 * block.product[i];
+      const Vector f0 = f.weight[i] * f.c0[i];
+      const Vector f1 = f.weight[i] * f.c1[i];
+      h0 += f0 * f.c0[i];
+      h1 += f0 * f.c1[i];
+      h2 += f0 * f.c2[i];
+      h5 += f0 * f.p2[i];
+      pull0 += f0 * f.product[i];
+      h6 += f1 * f.c1[i];
+      h7 += f1 * f.c2[i];
+      h10 += f1 * f.p2[i];
+      pull1 += f1 * f.product[i];
+      const Vector s0 = s.weight[i] * s.c0[i];
+      const Vector s1 = s.weight[i] * s.c1[i];
+      h0 += s0 * s.c0[i];
+      h1 += s0 * s.c1[i];
+      h2 += s0 * s.c2[i];
+      h5 += s0 * s.p2[i];
+      pull0 += s0 * s.product[i];
+      h6 += s1 * s.c1[i];
+      h7 += s1 * s.c2[i];
+      h10 += s1 * s.p2[i];
+      pull1 += s1 * s.product[i];
+      block->c0[i] = f0 + s0;
+      block->c1[i] = f1 + s1;
     }
-    const Vector sum[] = {h0, h1, h2, h3, h4, h5, h6, h7, h8, h9, h10};
-    for (int i = 0; i < 11; ++i) {
-      sums->hessian[i] = sum[i];
-    }
+    sums->hessian[0] = h0;
+    sums->hessian[1] = h1;
+    sums->hessian[2] = h2;
+    sums->hessian[5] = h5;
+    sums->hessian[6] = h6;
+    sums->hessian[7] = h7;
+    sums->hessian[10] = h10;
     sums->pull[0] = pull0;
     sums->pull[1] = pull1;
   }
 
-  static void addMixed(const Derivatives& block, std::size_t size, Sums* sums) {
-    Vector h11 = sums->hessian[11], h12 = sums->hessian[12], h13 = sums->hessian[13];
-    Vector h14 = sums->hessian[14], h15 = sums->hessian[15], h16 = sums->hessian[16];
-    Vector h17 = sums->hessian[17];
-    Vector pull2 = sums->pull[2], pull3 = sums->pull[3];
+  static void addMixed(const Block& block, const double* normal_x, const double* normal_y,
+                       std::size_t size, Sums* sums) {
+    Vector h3 = sums->hessian[3], h4 = sums->hessian[4], h8 = sums->hessian[8];
+    Vector h9 = sums->hessian[9], h12 = sums->hessian[12], h13 = sums->hessian[13];
+    Vector h11 = sums->hessian[11], h14 = sums->hessian[14], pull2 = sums->pull[2];
+    const OfPoint& f = block.points[0];
+    const OfPoint& s = block.points[1];
     for (std::size_t i = 0; i < size; ++i) {
-      const Vector weight = block.weight[i];
-      const Vector c2 = weight * block.c2[i];
-      const Vector p0 = weight * block.p0[i];
-      h11 += c2 * block.c2[i];
-      h12 += c2 * block.p0[i];
-      h13 += c2 * block.p1[i];
-      h14 += c2 * block.p2[i];
-      pull2 += c2 * block.product[i];
-      h15 += p0 * block.p0[i];
-      h16 += p0 * block.p1[i];
-      h17 += p0 * block.p2[i];
-      pull3 += p0 * block.product[i];
+      Vector nx, ny;
+      load(normal_x + i * kLineLanes, &nx);
+      load(normal_y + i * kLineLanes, &ny);
+      const Vector f2 = f.weight[i] * f.c2[i];
+      const Vector s2 = s.weight[i] * s.c2[i];
+      h11 += f2 * f.c2[i] + s2 * s.c2[i];
+      h14 += f2 * f.p2[i] + s2 * s.p2[i];
+      pull2 += f2 * f.product[i] + s2 * s.product[i];
+      const Vector c2 = f2 + s2;
+      h3 += nx * block.c0[i];
+      h4 += ny * block.c0[i];
+      h8 += nx * block.c1[i];
+      h9 += ny * block.c1[i];
+      h12 += nx * c2;
+      h13 += ny * c2;
     }
-    const Vector sum[] = {h11, h12, h13, h14, h15, h16, h17};
-    for (int i = 0; i < 7; ++i) {
-      sums->hessian[11 + i] = sum[i];
-    }
+    sums->hessian[3] = h3;
+    sums->hessian[4] = h4;
+    sums->hessian[8] = h8;
+    sums->hessian[9] = h9;
+    sums->hessian[12] = h12;
+    sums->hessian[13] = h13;
+    sums->hessian[11] = h11;
+    sums->hessian[14] = h14;
     sums->pull[2] = pull2;
-    sums->pull[3] = pull3;
   }
 
-  static void addTranslations(const Derivatives& block, std::size_t size, Sums* sums) {
+  static void addTranslations(const Block& block, const double* normal_x, const double* normal_y,
+                              std::size_t size, Sums* sums) {
+    Vector h15 = sums->hessian[15], h16 = sums->hessian[16], h17 = sums->hessian[17];
     Vector h18 = sums->hessian[18], h19 = sums->hessian[19], h20 = sums->hessian[20];
-    Vector pull4 = sums->pull[4], pull5 = sums->pull[5];
+    Vector pull3 = sums->pull[3], pull4 = sums->pull[4], pull5 = sums->pull[5];
+    const OfPoint& first = block.points[0];
+    const OfPoint& second = block.points[1];
     for (std::size_t i = 0; i < size; ++i) {
-      const Vector weight = block.weight[i];
-      const Vector p1 = weight * block.p1[i];
-      const Vector p2 = weight * block.p2[i];
-      h18 += p1 * block.p1[i];
-      h19 += p1 * block.p2[i];
-      pull4 += p1 * block.product[i];
-      h20 += p2 * block.p2[i];
-      pull5 += p2 * block.product[i];
+      Vector nx, ny;
+      load(normal_x + i * kLineLanes, &nx);
+      load(normal_y + i * kLineLanes, &ny);
+      const Vector weights = first.weight[i] + second.weight[i];
+      const Vector p2_first = first.weight[i] * first.p2[i];
+      const Vector p2_second = second.weight[i] * second.p2[i];
+      const Vector p2 = p2_first + p2_second;
+      const Vector product =
+          first.weight[i] * first.product[i] + second.weight[i] * second.product[i];
+      const Vector weighted_x = weights * nx;
+      h15 += weighted_x * nx;
+      h16 += weighted_x * ny;
+      h17 += nx * p2;
+      h18 += (weights * ny) * ny;
+      h19 += ny * p2;
+      h20 += p2_first * first.p2[i] + p2_second * second.p2[i];
+      pull3 += nx * product;
+      pull4 += ny * product;
+      pull5 += p2_first * first.product[i] + p2_second * second.product[i];
     }
+    sums->hessian[15] = h15;
+    sums->hessian[16] = h16;
+    sums->hessian[17] = h17;
     sums->hessian[18] = h18;
     sums->hessian[19] = h19;
     sums->hessian[20] = h20;
+    sums->pull[3] = pull3;
     sums->pull[4] = pull4;
     sums->pull[5] = pull5;
   }

@@ -4,10 +4,8 @@
 
 namespace evolin::wide {
 
-void lineSums(const LineTableView& table, const LineMotion& motion, double delta,
-              bool with_equations, LineSums* sums) {
-  with_equations ? LineLoops<FourWide>::sum<true>(table, motion, delta, sums)
-                 : LineLoops<FourWide>::sum<false>(table, motion, delta, sums);
+void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums) {
+  LineLoops<FourWide>::sum(table, motion, delta, sums);
 }
 
 }  // namespace evolin::wide

@@ -13,7 +13,7 @@ std::size_t padded(std::size_t rows) { return (rows + kLineLanes - 1) / kLineLan
 }  // namespace
 
 LineTable::LineTable(std::size_t capacity)
-    : stride_(padded(capacity)), values_(stride_ * kLineColumns), kept_(2 * stride_) {
+    : stride_(padded(capacity)), values_(stride_ * (kLineColumns + 2)) {
   places_.reserve(capacity);
 }
 
@@ -27,10 +27,8 @@ void LineTable::add(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2
                         point2.z(),
                         line.x() * camera.fx,
                         line.y() * camera.fy,
-                        line.x() * camera.cx + line.y() * camera.cy + line.z(),
-                        0,
-                        0};
-  for (int i = 0; i < kLineColumns; ++i) {
+                        line.x() * camera.cx + line.y() * camera.cy + line.z()};
+  for (int i = 0; i < kResidual1; ++i) {
     column(i)[size()] = row[i];
   }
   places_.push_back(place);
@@ -38,11 +36,14 @@ void LineTable::add(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2
 
 void LineTable::removeAbove(double gate) {
   std::size_t kept = 0;
-  for (std::size_t row = 0; row < size(); ++row) {
+  while (kept < size() && !(meanSquare(kept) > gate)) {
+    ++kept;
+  }
+  for (std::size_t row = kept; row < size(); ++row) {
     if (meanSquare(row) > gate) {
       continue;
     }
-    for (int i = 0; i < kLineColumns; ++i) {
+    for (int i = 0; i < kLineColumns + 2; ++i) {
       column(i)[kept] = column(i)[row];
     }
     places_[kept++] = places_[row];
@@ -58,31 +59,40 @@ std::size_t LineTable::countWithin(double gate) const {
   return count;
 }
 
-void LineTable::keepResiduals() {
-  std::copy_n(column(kResidual1), size(), kept_.data());
-  std::copy_n(column(kResidual2), size(), kept_.data() + stride_);
-}
+void LineTable::keepResiduals() { newest_ = 1 - newest_; }
 
 double LineTable::largestChange() const {
   double largest = 0;
-  for (std::size_t row = 0; row < size(); ++row) {
-    largest = std::max({largest, std::abs(column(kResidual1)[row] - kept_[row]),
-                        std::abs(column(kResidual2)[row] - kept_[stride_ + row])});
+  for (const int end : {0, 1}) {
+    for (std::size_t row = 0; row < size(); ++row) {
+      largest = std::max(largest, std::abs(residuals(end)[row] - keptResiduals(end)[row]));
+    }
   }
   return largest;
 }
 
-bool LineTable::canTell(double gate, double times, double change) const {
-  const auto square = [](double value) { return value * value; };
+bool LineTable::canTell(double gate, double times, double change) {
+  const double* const residuals1 = residuals(0);
+  const double* const residuals2 = residuals(1);
+  const double* const kept1 = keptResiduals(0);
+  const double* const kept2 = keptResiduals(1);
+  const auto stays = [&](std::size_t row) {
+    const double size1 = std::abs(residuals1[row]);
+    const double size2 = std::abs(residuals2[row]);
+    const double reach1 = times * std::max(std::abs(residuals1[row] - kept1[row]), change);
+    const double reach2 = times * std::max(std::abs(residuals2[row] - kept2[row]), change);
+    const double nearest1 = std::max(size1 - reach1, 0.0);
+    const double nearest2 = std::max(size2 - reach2, 0.0);
+    const double most = (size1 + reach1) * (size1 + reach1) + (size2 + reach2) * (size2 + reach2);
+    const double least = nearest1 * nearest1 + nearest2 * nearest2;
+    return most / 2 <= gate || least / 2 > gate;
+  };
+  if (open_ < size() && !stays(open_)) {
+    return false;
+  }
   for (std::size_t row = 0; row < size(); ++row) {
-    const double first = column(kResidual1)[row];
-    const double second = column(kResidual2)[row];
-    const double reach1 = times * std::max(std::abs(first - kept_[row]), change);
-    const double reach2 = times * std::max(std::abs(second - kept_[stride_ + row]), change);
-    const double most = square(std::abs(first) + reach1) + square(std::abs(second) + reach2);
-    const double least = square(std::max(std::abs(first) - reach1, 0.0)) +
-                         square(std::max(std::abs(second) - reach2, 0.0));
-    if (!(most / 2 <= gate || least / 2 > gate)) {
+    if (!stays(row)) {
+      open_ = row;
       return false;
     }
   }
@@ -92,13 +102,15 @@ bool LineTable::canTell(double gate, double times, double change) const {
 LineTableView LineTable::view() {
   LineTableView table;
   table.rows = padded(size());
-  for (int i = 0; i < kLineColumns; ++i) {
+  for (int i = 0; i < kResidual1; ++i) {
     table.columns[i] = column(i);
     for (std::size_t row = size(); row < table.rows; ++row) {
       // In front of the camera for any motion that is not far off.
       column(i)[row] = i == kPoint1Z || i == kPoint2Z ? 1 : 0;
     }
   }
+  table.columns[kResidual1] = column(kResidual1 + 2 * newest_);
+  table.columns[kResidual2] = column(kResidual2 + 2 * newest_);
   return table;
 }
 

@@ -24,8 +24,8 @@ class LineTable {
 
   /// Mean of the squares of a match's two residuals, as lineSums() left them.
   double meanSquare(std::size_t row) const {
-    const double* const first = column(kResidual1);
-    const double* const second = column(kResidual2);
+    const double* const first = residuals(0);
+    const double* const second = residuals(1);
     return (first[row] * first[row] + second[row] * second[row]) / 2;
   }
 
@@ -34,7 +34,8 @@ class LineTable {
 
   std::size_t countWithin(double gate) const;
 
-  /// Remembers the residuals as they are, for the following two.
+  /// Remembers the residuals as they are, for the following two; they are undefined then until
+  /// lineSums() makes new ones.
   void keepResiduals();
 
   /// Of a residual since then.
@@ -42,20 +43,27 @@ class LineTable {
 
   /// Whether every match stays on its side of `gate` if each of its residuals moves, either way, by
   /// `times` its change since then, and by `times` `change` at least.
-  bool canTell(double gate, double times, double change) const;
+  bool canTell(double gate, double times, double change);
 
-  /// For lineSums(); valid until the table changes.
+  /// For lineSums(); valid until the table changes or residuals are kept.
   LineTableView view();
 
  private:
+  /// Of all first points (0) or all second ones (1).
+  const double* residuals(int end) const { return column(kResidual1 + 2 * newest_ + end); }
+  const double* keptResiduals(int end) const {
+    return column(kResidual1 + 2 * (1 - newest_) + end);
+  }
+
   double* column(int index) { return values_.data() + static_cast<std::size_t>(index) * stride_; }
   const double* column(int index) const {
     return values_.data() + static_cast<std::size_t>(index) * stride_;
   }
 
-  std::size_t stride_;  ///< of a column
-  std::vector<double> values_;
-  std::vector<double> kept_;  ///< residuals: of all first points, of all second points
+  std::size_t stride_;          ///< of a column
+  std::vector<double> values_;  ///< columns as in LineColumn, and two more for kept residuals
+  int newest_ = 0;              ///< of the two pairs of columns for residuals, the other being kept
+  std::size_t open_ = 0;        ///< the row that could not be told last: likely the next as well
   std::vector<std::size_t> places_;
 };
 

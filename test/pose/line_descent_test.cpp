@@ -52,7 +52,7 @@ constexpr LineMotion kShift = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.01, -0.02, 0.03}}
 LineSums sumsOf(const SpatialMatches& matches, double delta) {
   LineTable table = tableOf(matches);
   LineSums sums;
-  lineSums(table.view(), kShift, delta, true, &sums);
+  lineSums(table.view(), kShift, delta, &sums);
   return sums;
 }
 
@@ -93,20 +93,19 @@ TEST(LineSums, AreThoseOfTheObservationsOneByOne) {
   }
 }
 
-TEST(LineSums, AreTheSameToTheLastBitOnEveryProcessor) {
-  if (!cv::checkHardwareSupport(CV_CPU_AVX2)) {
-    GTEST_SKIP() << "this processor has no AVX2";
-  }
+using Loops = void (*)(const LineTableView&, const LineMotion&, double, LineSums*);
+
+void expectSameBits(Loops loops) {
   test::RandomLines random(2);
-  for (const std::size_t count : {1U, 7U, 150U}) {
-    for (const bool with_equations : {false, true}) {
+  for (const std::size_t count : {1U, 7U, 150U, 300U}) {
+    for (const double delta : {1.0, 1e100}) {
       LineTable table = tableOf(drawnMatches(count, 1, 0.2, &random));
       LineTable same = table;
       LineSums of_generic;
-      LineSums of_wide;
-      generic::lineSums(table.view(), kShift, 1, with_equations, &of_generic);
-      wide::lineSums(same.view(), kShift, 1, with_equations, &of_wide);
-      EXPECT_EQ(std::memcmp(&of_generic, &of_wide, sizeof(LineSums)), 0) << count;
+      LineSums others;
+      generic::lineSums(table.view(), kShift, delta, &of_generic);
+      loops(same.view(), kShift, delta, &others);
+      EXPECT_EQ(std::memcmp(&of_generic, &others, sizeof(LineSums)), 0) << count;
       for (std::size_t row = 0; row < count; ++row) {
         EXPECT_EQ(table.meanSquare(row), same.meanSquare(row)) << count << ", " << row;
       }
@@ -114,11 +113,25 @@ TEST(LineSums, AreTheSameToTheLastBitOnEveryProcessor) {
   }
 }
 
+TEST(LineSums, AreTheSameToTheLastBitWithAvx2) {
+  if (!cv::checkHardwareSupport(CV_CPU_AVX2)) {
+    GTEST_SKIP() << "this processor has no AVX2";
+  }
+  expectSameBits(&wide::lineSums);
+}
+
+TEST(LineSums, AreTheSameToTheLastBitWithAvx512) {
+  if (!cv::checkHardwareSupport(CV_CPU_AVX_512F) || !cv::checkHardwareSupport(CV_CPU_AVX_512VL)) {
+    GTEST_SKIP() << "this processor has no AVX-512 (F, VL)";
+  }
+  expectSameBits(&roomy::lineSums);
+}
+
 TEST(LineTable, KeepsOrderAndPlacesOfWhatItKeeps) {
   test::RandomLines random(3);
   LineTable table = tableOf(drawnMatches(37, 2, 0.3, &random));
   LineSums sums;
-  lineSums(table.view(), kShift, 1, false, &sums);
+  lineSums(table.view(), kShift, 1, &sums);
   std::vector<double> squares;
   for (std::size_t row = 0; row < table.size(); ++row) {
     squares.push_back(table.meanSquare(row));
