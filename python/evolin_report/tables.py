@@ -238,9 +238,12 @@ def repeatability_tables(sequence, runs):
 def association_tables(sequence, runs):
     runs = concerned(runs, "association")
     with_associator = [run for run in runs if run.associator] or runs
-    # In a benchmark, cells on detected lines have a table of their own.
-    ground_truth = one_each([run for run in with_associator if not run.benchmark or
-                             not run.section("association_detected").get("pairs")],
+    # In a benchmark, settings on detected lines have a table of their own, with those of their
+    # cells, too, that give no report.
+    detecting = {(run.benchmark, run.setting) for run in runs
+                 if run.benchmark and run.section("association_detected").get("pairs")}
+    is_detecting = {run: (run.benchmark, run.setting) in detecting for run in with_associator}
+    ground_truth = one_each([run for run in with_associator if not is_detecting[run]],
                             lambda run: (run.associator, run.setting))
     table = Table("association", "Association of ground-truth lines", sequence,
                   ["associator", "method of the run"],
@@ -255,7 +258,7 @@ def association_tables(sequence, runs):
         table.add([run.associator or "-", run.label()],
                   [figures.association(run, "association", key) for key in keys], run)
     for run in with_associator:
-        if run.section("association_detected").get("pairs"):
+        if is_detecting[run] or run.section("association_detected").get("pairs"):
             detected.add([run.label(), run.associator or "-"],
                          [figures.association(run, "association_detected", key) for key in keys],
                          run)

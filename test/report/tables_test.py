@@ -267,6 +267,21 @@ class Benchmark(TablesTest):
                          ["LSD + lines", "HAWP + lines", "- + matches", "- + matches",
                           "LSD + poses", "HAWP + poses"])
 
+    def test_a_cell_without_a_report_stands_with_those_of_its_setting(self):
+        def entry(name, detector, setting, state="finished"):
+            return {"id": name, "sequence": "room", "detector": detector, "associator": "lbd",
+                    "detector_label": detector.upper() if detector else None,
+                    "setting": setting, "state": state, "reason": "no network file"}
+        detected = report(association={"pairs": 0})
+        detected["association_detected"] = dict(report()["association"], pairs=3)
+        cells = [(entry("1", "lsd", "front_end"), detected),
+                 (entry("2", "mlsd", "front_end", "unavailable"), None),
+                 (entry("3", "none", "matches"), report(detection=None))]
+        made = self.make(self.benchmark("root", cells))
+        self.assertEqual([row.keys for row in self.table(made, "association_detected").rows],
+                         [["LSD", "lbd"], ["MLSD", "lbd"]])
+        self.assertEqual([row.run.id for row in self.table(made, "association").rows], ["3"])
+
     def test_settings_that_measure_the_same_are_told_apart(self):
         cells = [({"id": name, "sequence": "room", "detector": "lsd", "associator": "none",
                    "setting": name, "state": "finished"}, report()) for name in ("plain", "strict")]
