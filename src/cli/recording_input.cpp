@@ -147,10 +147,21 @@ std::map<std::string, std::string> RecordingInput::options() const {
 
 std::unique_ptr<PartReader> RecordingInput::open(const WantedParts& wanted,
                                                  const Needs& needs) const {
+  try {
+    return openComplete(wanted, needs);
+  } catch (const UnavailableError& error) {
+    throw UnavailableError(names() + ": " + error.what());
+  }
+}
+
+std::unique_ptr<PartReader> RecordingInput::openComplete(const WantedParts& wanted,
+                                                         const Needs& needs) const {
   if (isFolder()) {
     SequenceOptions options = folder_;
     options.read_depth = wanted.motion || needs.depth;
-    return openFolderParts(inputs_.front(), options, wanted);
+    std::unique_ptr<PartReader> reader = openFolderParts(inputs_.front(), options, wanted);
+    requireOffered(*reader, needs);
+    return reader;
   }
   const bool motion = needs.depth || needs.pose;
   WantedParts read = wanted;
@@ -159,11 +170,7 @@ std::unique_ptr<PartReader> RecordingInput::open(const WantedParts& wanted,
   if (!motion && !needs.camera) {
     return reader;
   }
-  try {
-    return completeFrames(std::move(reader), needs, wanted);
-  } catch (const UnavailableError& error) {
-    throw UnavailableError(names() + ": " + error.what());
-  }
+  return completeFrames(std::move(reader), needs, wanted);
 }
 
 std::string RecordingInput::names() const {

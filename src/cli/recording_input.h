@@ -22,8 +22,8 @@ class RecordingInput {
   /// Checks values and which options go with which input; throws UsageError.
   void check(const boost::program_options::variables_map& given);
 
-  /// `needs` of the plug-ins that get the frames. Throws UnavailableError for what a bag does not
-  /// deliver to them, else as openFolderParts() and openBagParts().
+  /// `needs` of the plug-ins that get the frames. Throws UnavailableError for what the recording
+  /// does not have for them, else as openFolderParts() and openBagParts().
   std::unique_ptr<PartReader> open(const WantedParts& wanted, const Needs& needs) const;
 
   /// What else was given of these options, by long name. Paths are absolute, the value of a switch
@@ -38,6 +38,7 @@ class RecordingInput {
 
  private:
   bool isFolder() const;
+  std::unique_ptr<PartReader> openComplete(const WantedParts& wanted, const Needs& needs) const;
   void keepGiven(const boost::program_options::variables_map& given);
 
   std::vector<std::string> inputs_;

@@ -81,6 +81,16 @@ class PlannedSequence : public SequenceReader {
   }
 
   std::size_t size() const override { return plan_.frames.size(); }
+  Needs offers() const override {
+    Needs offers;
+    offers.camera = camera_.has_value();
+    for (const PlannedFrame& frame : plan_.frames) {
+      offers.depth = offers.depth || (read_depth_ && !frame.depth.empty());
+      offers.pose = offers.pose || frame.pose;
+    }
+    return offers;
+  }
+
   const SequenceCounts& counts() const override { return counts_; }
   Layout layout() const override { return plan_.layout; }
   std::string poseRule() const override { return plan_.pose_rule; }

@@ -35,11 +35,8 @@ class CompleteFrames : public PartReader {
         needs_(needs),
         wanted_(wanted),
         depths_(MotionOptions().max_time_difference, kDepthsKept) {
-    const Needs offered = reader_->offers();
-    require(offered.depth, needs.depth, "depth");
-    require(offered.pose, needs.pose, "poses");
-    require(offered.camera, needs.camera, "camera");
-    needs_.camera = offered.camera;  // whoever asks for depth or poses wants it
+    requireOffered(*reader_, needs);
+    needs_.camera = reader_->offers().camera;  // whoever asks for depth or poses wants it
   }
 
   std::optional<StreamPart> next() override {
@@ -178,6 +175,13 @@ class CompleteFrames : public PartReader {
 };
 
 }  // namespace
+
+void requireOffered(const PartReader& reader, const Needs& needs) {
+  const Needs offered = reader.offers();
+  require(offered.depth, needs.depth, "depth");
+  require(offered.pose, needs.pose, "poses");
+  require(offered.camera, needs.camera, "camera");
+}
 
 std::unique_ptr<PartReader> completeFrames(std::unique_ptr<PartReader> reader, const Needs& needs,
                                            const WantedParts& wanted) {

@@ -30,6 +30,7 @@ class FolderParts : public PartReader {
   }
 
   std::size_t images() const override { return reader_->size(); }
+  Needs offers() const override { return reader_->offers(); }
 
   std::vector<std::string> notes() const override {
     const SequenceCounts& counts = reader_->counts();

@@ -125,7 +125,7 @@ TEST_F(RunTest, ABagWithoutWhatAnAssociatorNeedsIsRefusedByName) {
   }
 }
 
-TEST_F(RunTest, ABagWithoutACameraIsRefusedWhereThatAloneIsNeeded) {
+TEST_F(RunTest, ARecordingWithoutACameraIsRefusedWhereThatAloneIsNeeded) {
   const char* const before = std::getenv("ROS_PACKAGE_PATH");
   const test::Variable packages(
       "ROS_PACKAGE_PATH",
@@ -140,14 +140,19 @@ TEST_F(RunTest, ABagWithoutACameraIsRefusedWhereThatAloneIsNeeded) {
   const Outcome outcome = detect("data.bag");
   ASSERT_EQ(outcome.status, kExitDone) << outcome.err;
   EXPECT_EQ(report("out").at("coverage").at("evaluated"), 12);
+  test::writeEvolinFolder(frames, path("bare_folder"));
+  fs::remove(path("bare_folder/calibration_matrix.txt"));
   for (SequenceFrame& frame : frames) {
     frame.frame.camera.reset();
   }
   writeBag(frames, path("bare.bag"));
-  const Outcome refused = detect("bare.bag");
-  EXPECT_EQ(refused.status, kExitFailed);
-  for (const char* const word : {"bare.bag", "a plug-in needs camera", "has no camera"}) {
-    EXPECT_NE(refused.err.find(word), std::string::npos) << refused.err;
+  for (const std::string input : {"bare.bag", "bare_folder"}) {
+    const Outcome refused = detect(input);
+    EXPECT_EQ(refused.status, kExitFailed);
+    for (const std::string& word :
+         {input, std::string("a plug-in needs camera"), std::string("has no camera")}) {
+      EXPECT_NE(refused.err.find(word), std::string::npos) << refused.err;
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "evolin_ros/dataset/frame.h"
+#include "evolin_ros/dataset/needs.h"
 
 namespace evolin {
 
@@ -71,6 +72,9 @@ class SequenceReader {
 
   /// Frames that next() will give at the most, counted from the lists.
   virtual std::size_t size() const = 0;
+
+  /// What some frame at least comes with, by the lists.
+  virtual Needs offers() const = 0;
 
   virtual const SequenceCounts& counts() const = 0;
 

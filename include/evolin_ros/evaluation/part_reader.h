@@ -45,7 +45,7 @@ class PartReader {
   /// Images to come, as far as it is known beforehand.
   virtual std::size_t images() const = 0;
 
-  /// What its frames can be given, as far as it is known beforehand; completeFrames() asks.
+  /// What its frames can be given, as far as it is known beforehand; requireOffered() asks.
   virtual Needs offers() const { return {true, true, true}; }
 
   /// What the user must know of the recording; complete once next() has given none.
