@@ -13,7 +13,7 @@
 namespace evolin::ros_shell {
 
 struct DetectorOptions {
-  std::string detector = "opencv_lsd";
+  std::string detector = "lsd";
   std::string config;          ///< YAML file of the plug-in's parameters
   YAML::Node parameters;       ///< those of `config` with the node's own laid over them
   std::string source;          ///< name of the lines; "": the detector's

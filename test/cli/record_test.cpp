@@ -21,12 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::Outcome;
 
-/// opencv_lsd, or lsd where this build lacks it.
-std::string availableDetector() {
-  PluginLoader loader;
-  return loader.loadDetector("opencv_lsd")->whyUnavailable().empty() ? "opencv_lsd" : "lsd";
-}
-
 class RecordTest : public ::testing::Test {
  protected:
   RecordTest() {
@@ -81,7 +75,7 @@ class RecordTest : public ::testing::Test {
   test::DrawnSequence sequence_;
   std::vector<SequenceFrame> frames_;
   test::TemporaryFolder folder_;
-  std::string detector_ = availableDetector();
+  std::string detector_ = "lsd";
 };
 
 TEST_F(RecordTest, DetectedLinesComeBackByStampAndByName) {

@@ -34,12 +34,12 @@ TEST(HealthLimits, RefuseWhatTheyDoNotKnow) {
 }
 
 TEST(DetectorOptions, TagsWhatChangesTheLinesAlone) {
-  EXPECT_EQ(detector("{}").taggedSource(), "opencv_lsd");
+  EXPECT_EQ(detector("{}").taggedSource(), "lsd");
   EXPECT_EQ(detector("{detector: hough_p}").taggedSource(), "hough_p");
   EXPECT_EQ(detector("{source: mine}").taggedSource(), "mine");
   EXPECT_EQ(
       detector("{queue_size: 5, line_width: 3, realtime: true, rectify: refuse}").taggedSource(),
-      "opencv_lsd");
+      "lsd");
   std::set<std::string> tagged;
   for (const char* yaml :
        {"{parameters: {scale: 1}}", "{parameters: {scale: 2}}", "{max_lines: 5}", "{min_length: 5}",
@@ -56,7 +56,7 @@ TEST(DetectorOptions, AnotherMethodUnderAGivenNameIsTagged) {
   DetectorOptions options = detector("{source: mine, detector: hough_p}");
   options.named_detector = "hough_p";
   EXPECT_EQ(options.taggedSource(), "mine");
-  options.named_detector = "opencv_lsd";
+  options.named_detector = "lsd";
   EXPECT_NE(options.taggedSource(), "mine");
 }
 

@@ -76,7 +76,7 @@ TEST(OnlineAssociator, DetectedLinesAreNotEvaluatedAndSaidSo) {
   bench.call("finish");
 
   const std::vector<MatchSet> expected =
-      associateLines(frames, detectLines(frames, availableDetector()), {});
+      associateLines(frames, detectLines(frames, kDefaultDetector), {});
   const std::vector<evolin_ros::LineMatchArray> messages = matches.messages();
   for (std::size_t i = 0; i < expected.size(); ++i) {
     SCOPED_TRACE("pair " + std::to_string(i));
@@ -88,7 +88,7 @@ TEST(OnlineAssociator, DetectedLinesAreNotEvaluatedAndSaidSo) {
   EXPECT_TRUE(association.at("f_score").is_null());
   EXPECT_EQ(association.at("pairs"), 0);
   EXPECT_EQ(association.at("not_evaluated").at("detected_lines"), 11);
-  EXPECT_EQ(association.at("lines_source"), availableDetector());
+  EXPECT_EQ(association.at("lines_source"), kDefaultDetector);
   Methods methods;
   methods.associator = "";
   expectDetection(report, evaluateInProcess(frames, methods));

@@ -32,7 +32,7 @@ TEST(OnlineBag, GivesTheReportOfAnEvaluationInProcess) {
   const std::filesystem::path bag = folder.path() / "drawn.bag";
   writeBag(frames, bag);
 
-  BagRun run(availableDetector());
+  BagRun run(kDefaultDetector);
   const nlohmann::json report = run.play(bag);
 
   const Expected expected = evaluateInProcess(frames);
@@ -66,7 +66,7 @@ TEST(OnlineBag, AtTenTimesTheSpeedTheReportIsTheSame) {
   writeBag(frames, folder.path() / "drawn.bag");
   ros::param::set(testNamespace() + "/player/rate", 10.0);
   ros::param::set(testNamespace() + "/evaluator/diagnostic_period", 0.1);
-  BagRun run(availableDetector());
+  BagRun run(kDefaultDetector);
   const DiagnosticsReader diagnostics(run.space() + "/evaluator");
   const nlohmann::json report = run.play(folder.path() / "drawn.bag");
   EXPECT_TRUE(diagnostics.waitFor("coverage", [](const Status& status) {
@@ -124,7 +124,7 @@ TEST(OnlineBag, APauseIsNoEnd) {
   ros::param::set(space + "/evaluator/idle_timeout", 0.5);
   ros::param::set(space + "/evaluator/diagnostic_period", 0.1);
   ros::param::set(space + "/evaluator/diagnostics/silence_warn", 0.5);
-  BagRun run(availableDetector());
+  BagRun run(kDefaultDetector);
   Collector<evolin_ros::DetectionMetrics> detection(space + "/metrics/detection/frame");
   ASSERT_TRUE(detection.waitForPublisher());
   const DiagnosticsReader diagnostics(space + "/evaluator");

@@ -72,7 +72,7 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
   }
   ASSERT_TRUE(lines.waitForCount(frames.size()));
 
-  const std::vector<LineSet> expected = detectLines(frames, availableDetector());
+  const std::vector<LineSet> expected = detectLines(frames, kDefaultDetector);
   const std::vector<evolin_ros::LineArray> messages = lines.messages();
   std::size_t found = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -81,7 +81,7 @@ TEST_F(OnlineDetector, SendsTheLinesOfTheMethodUnderTheImagesHeader) {
     EXPECT_EQ(messages[i].header.frame_id, "/openni_rgb_optical_frame");
     EXPECT_EQ(messages[i].width, 320U);
     EXPECT_EQ(messages[i].height, 240U);
-    EXPECT_EQ(messages[i].source, availableDetector());
+    EXPECT_EQ(messages[i].source, kDefaultDetector);
     EXPECT_EQ(messages[i].has_scores, expected[i].scored);
     EXPECT_GT(messages[i].processing_time, ros::Duration(0));
     found += messages[i].lines.size();
@@ -129,7 +129,7 @@ TEST_F(OnlineDetector, TakesGreyImages) {
   publisher_.sendImage(frame);
   ASSERT_TRUE(lines.waitForCount(1));
   EXPECT_EQ(lines.messages().front().lines.size(),
-            detectLines({frame}, availableDetector()).front().lines.size());
+            detectLines({frame}, kDefaultDetector).front().lines.size());
 }
 
 TEST_F(OnlineDetector, NamesWhatItRefuses) {

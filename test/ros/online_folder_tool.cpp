@@ -64,7 +64,6 @@ int main(int argc, char** argv) {
     evolin::test::writeAnnotations(halved, folder / "halved");
     const std::vector<evolin::SequenceFrame> part(frames.begin() + 3, frames.begin() + 9);
     nlohmann::json expected;
-    expected["detector"] = evolin::test::availableDetector();
     expected["whole"] = toJson(evolin::test::evaluateInProcess(frames));
     expected["halved"] = toJson(evolin::test::evaluateInProcess(halved));
     expected["frames_3_to_8"] = toJson(evolin::test::evaluateInProcess(part));

@@ -87,7 +87,7 @@ TEST(OnlineRun, SyntheticBag) {
   for (std::size_t number = 0; number < sequence.size(); ++number) {
     frames.push_back(sequence.frame(number));
   }
-  expectOnlineAndOfflineAgree(frames, availableDetector());
+  expectOnlineAndOfflineAgree(frames, kDefaultDetector);
 }
 
 /// Lines and matches that were written to folders go through the nodelets as any method's.
@@ -100,14 +100,14 @@ TEST(OnlineRun, RecordedLinesAndMatches) {
   writeBag(frames, bag);
   const std::vector<cli::Command> commands = {cli::detectCommand(), cli::associateCommand()};
   ASSERT_EQ(cli::runProgram(commands, {"detect", "--quiet", "--input", bag.string(), "--detector",
-                                       availableDetector(), "--output", lines}),
+                                       kDefaultDetector, "--output", lines}),
             cli::kExitDone);
   ASSERT_EQ(cli::runProgram(commands, {"associate", "--quiet", "--input", bag.string(),
                                        "--associator", "lbd", "--output", matches}),
             cli::kExitDone);
   const nlohmann::json offline =
       figuresOf(runOn({bag}, "recorded:folder=" + lines, 2, "recorded:folder=" + matches));
-  const nlohmann::json direct = figuresOf(runOn({bag}, availableDetector(), 1));
+  const nlohmann::json direct = figuresOf(runOn({bag}, kDefaultDetector, 1));
   expectFiguresOfAllFamilies(offline, frames.size());
   EXPECT_EQ(offline.at("detection").at("entries"), direct.at("detection").at("entries"));
   EXPECT_EQ(offline.at("association").at("counts"), direct.at("association").at("counts"));

@@ -30,7 +30,7 @@ void expectWholeChain(const Command& command) {
     ros::param::set(space + "/" + method + "/lazy", false);
     ros::param::set(space + "/" + method + "/queue_size", 100);
   }
-  ros::param::set(space + "/detector/detector", availableDetector());
+  ros::param::set(space + "/detector/detector", kDefaultDetector);
   ros::param::set(space + "/truth/folder", annotations.path().string());
   ros::param::set(space + "/evaluator/output_dir", results.path().string());
   std::vector<std::unique_ptr<Process>> processes;

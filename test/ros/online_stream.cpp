@@ -135,10 +135,6 @@ void Camera30::run(SequencePublisher* publisher) const {
 
 bool loadDetector(Manager* manager, const std::string& name,
                   const std::map<std::string, std::string>& remappings) {
-  const std::string parameter = manager->space() + "/" + name + "/detector";
-  if (!ros::param::has(parameter)) {
-    ros::param::set(parameter, availableDetector());
-  }
   return manager->load(name, "evolin_ros/LineDetector", remappings);
 }
 

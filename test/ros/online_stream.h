@@ -126,13 +126,13 @@ class Camera30 {
   std::thread thread_;
 };
 
-/// Loads nodelet evolin_ros/LineDetector with availableDetector(), unless its ~detector is set
+/// Loads nodelet evolin_ros/LineDetector, with kDefaultDetector unless its ~detector is set
 /// already; false when it does not load.
 bool loadDetector(Manager* manager, const std::string& name = "detector",
                   const std::map<std::string, std::string>& remappings = {});
 
 struct BenchOptions {
-  std::string detector = availableDetector();
+  std::string detector = kDefaultDetector;
   std::string associator = "lbd";  ///< "": no associator nodelet
   std::string associated_lines = "ground_truth/lines";
   int frame_step = 1;

@@ -66,10 +66,6 @@ std::string whyUnavailable(const std::string& detector) {
   return loader.loadDetector(detector)->whyUnavailable();
 }
 
-std::string availableDetector() {
-  return whyUnavailable("opencv_lsd").empty() ? "opencv_lsd" : "lsd";
-}
-
 std::vector<LineSet> detectLines(const std::vector<SequenceFrame>& frames,
                                  const std::string& detector_name) {
   PluginLoader loader;

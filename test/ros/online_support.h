@@ -66,11 +66,11 @@ std::string testNamespace();
 /// Why this build cannot run a detector plug-in; "" when it can.
 std::string whyUnavailable(const std::string& detector);
 
-/// opencv_lsd, or our own lsd where this build lacks it: for tests of what holds with any detector.
-std::string availableDetector();
+/// The detector nodelet's own choice, for tests of what holds with any.
+constexpr const char* kDefaultDetector = "lsd";
 
 struct Methods {
-  std::string detector = availableDetector();
+  std::string detector = kDefaultDetector;
   std::string associator = "lbd";
   int frame_step = 1;
 };
