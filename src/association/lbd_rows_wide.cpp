@@ -1,4 +1,4 @@
-// The loops for processors with AVX2: this file alone is compiled for them.
+// The loops for processors with AVX2, for which this file alone is compiled.
 #include "lbd_rows.h"
 #include "lbd_rows_kernel.h"
 
