@@ -26,7 +26,7 @@ const std::int32_t* LbdGradient::compute(const LbdImageView& image) {
   gradient_.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   static const bool has_wide = cv::checkHardwareSupport(CV_CPU_AVX2);
   (has_wide ? wide::computeLbdGradient : generic::computeLbdGradient)(
-      image, {14, 62, 104}, rows_.data(), gradient_.data());
+      image, kLbdGaussian, rows_.data(), gradient_.data());
   return gradient_.data();
 }
 

@@ -23,6 +23,9 @@ struct LbdGaussian {
   std::uint16_t middle;
 };
 
+/// Of sigma 1, rounded so that their sum is 1.
+constexpr LbdGaussian kLbdGaussian = {14, 62, 104};
+
 /// Computes gradients one after the other and keeps its memory for the next one.
 class LbdGradient {
  public:
