@@ -157,6 +157,7 @@ bool isDescribable(float coordinate) { return std::abs(coordinate) <= kLbdLarges
 
 struct LbdDescriber::Memory {
   LbdGradient gradient;
+  const Weights weights;
 };
 
 LbdDescriber::LbdDescriber() : memory_(std::make_unique<Memory>()) {}
@@ -176,7 +177,6 @@ cv::Mat LbdDescriber::describe(const cv::Mat& gray, const LineSegments& lines) {
   const LbdGradientView gradient = {
       memory_->gradient.compute({gray.data, gray.step, gray.cols, gray.rows}), gray.cols,
       gray.rows};
-  const Weights weights;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     float* const descriptor = descriptors.ptr<float>(static_cast<int>(i));
     const auto x1 = static_cast<float>(lines[i].x1);
@@ -193,7 +193,7 @@ cv::Mat LbdDescriber::describe(const cv::Mat& gray, const LineSegments& lines) {
     }
     LbdRowSums sums;
     sumLbdRows(gradient, support, !isInside(support, gray.cols, gray.rows), &sums);
-    bandStatistics(sums, weights, descriptor);
+    bandStatistics(sums, memory_->weights, descriptor);
     normalize(descriptor);
   }
   return descriptors;
