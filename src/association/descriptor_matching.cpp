@@ -114,32 +114,72 @@ std::vector<int> validRows(const BinaryDescriptors& descriptors) {
   return rows;
 }
 
-std::vector<int> finiteRows(const cv::Mat& descriptors) {
-  std::vector<int> rows;
-  for (int i = 0; i < descriptors.rows; ++i) {
-    const float* const row = descriptors.ptr<float>(i);
-    if (std::all_of(row, row + descriptors.cols, [](float v) { return std::isfinite(v); })) {
-      rows.push_back(i);
+// Not finite where a value is not. The partial sums do not wait for each other.
+double sumOfSquares(const float* values, int size) {
+  constexpr int kPartial = 8;
+  double partial[kPartial] = {};
+  int d = 0;
+  for (; d + kPartial <= size; d += kPartial) {
+    for (int k = 0; k < kPartial; ++k) {
+      partial[k] += static_cast<double>(values[d + k]) * static_cast<double>(values[d + k]);
     }
   }
-  return rows;
+  double sum = 0;
+  for (; d < size; ++d) {
+    sum += static_cast<double>(values[d]) * static_cast<double>(values[d]);
+  }
+  for (const double part : partial) {
+    sum += part;
+  }
+  return sum;
 }
 
-// The chosen rows as the columns of a matrix, with columns of zeros up to the next full block.
-struct Columns {
-  Columns(const cv::Mat& descriptors, const std::vector<int>& rows)
-      : count((rows.size() + kEstimateColumns - 1) / kEstimateColumns * kEstimateColumns),
-        values(count * static_cast<std::size_t>(descriptors.cols)) {
-    for (std::size_t j = 0; j < rows.size(); ++j) {
-      const float* const row = descriptors.ptr<float>(rows[j]);
-      for (int d = 0; d < descriptors.cols; ++d) {
-        values[static_cast<std::size_t>(d) * count + j] = row[d];
+// The rows of descriptors whose values are finite.
+struct FiniteRows {
+  explicit FiniteRows(const cv::Mat& descriptors) {
+    rows.reserve(static_cast<std::size_t>(descriptors.rows));
+    estimated.reserve(static_cast<std::size_t>(descriptors.rows));
+    for (int i = 0; i < descriptors.rows; ++i) {
+      const float* const values = descriptors.ptr<float>(i);
+      const double squares = sumOfSquares(values, descriptors.cols);
+      if (std::isfinite(squares)) {
+        rows.push_back(i);
+        estimated.push_back({values, static_cast<float>(squares)});
+        largest_squares = std::max(largest_squares, squares);
       }
+    }
+  }
+
+  std::vector<int> rows;
+  std::vector<EstimateRow> estimated;
+  double largest_squares = 0;
+};
+
+// Descriptors as EstimateColumns has them, with columns that are near nothing up to the last
+// matrix's end.
+struct Columns {
+  Columns(const std::vector<EstimateRow>& rows, std::size_t size)
+      : count((rows.size() + kEstimateColumns - 1) / kEstimateColumns * kEstimateColumns),
+        values(count * size),
+        squares(count, std::numeric_limits<float>::quiet_NaN()) {
+    for (std::size_t begin = 0; begin < rows.size(); begin += kEstimateColumns) {
+      const std::size_t width = std::min(kEstimateColumns, rows.size() - begin);
+      float* matrix = values.data() + begin * size;
+      for (std::size_t d = 0; d < size; ++d) {
+        for (std::size_t j = 0; j < width; ++j) {
+          matrix[j] = rows[begin + j].values[d];
+        }
+        matrix += kEstimateColumns;
+      }
+    }
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      squares[j] = rows[j].squares;
     }
   }
 
   std::size_t count;
   std::vector<float> values;
+  std::vector<float> squares;
 };
 
 double squaredDistance(const float* first, const float* second, int size) {
@@ -151,11 +191,14 @@ double squaredDistance(const float* first, const float* second, int size) {
   return sum;
 }
 
-// The largest estimate that one may have whose distance is not above that of the smallest estimate.
-// Single precision keeps 24 bits of every difference, square and sum.
-float farthestEstimate(float smallest, int size) {
-  const float relative = 4 * static_cast<float>(size + 4) * std::numeric_limits<float>::epsilon();
-  return smallest * (1 + relative) + 1e-30F;
+// Sums of squares up to here leave single precision room for sums of them.
+constexpr double kLargestSquares = 1e36;
+
+// Single precision keeps 24 bits of every square, product and sum. This is twice what two estimates
+// together may be wrong by, so that one is not this far above another whose row is farther away.
+float estimateMargin(double largest_squares, std::size_t size) {
+  const double relative = 2 * static_cast<double>(size + 8) * std::numeric_limits<float>::epsilon();
+  return static_cast<float>(largest_squares * relative + 1e-30);
 }
 
 // The smallest of numbers and the one after it; those that are not numbers do not count.
@@ -177,57 +220,59 @@ struct SmallestTwo {
 // the second nearest where rules ask for that one.
 class CandidatePairs {
  public:
-  CandidatePairs(const cv::Mat& first, const std::vector<int>& first_rows, const cv::Mat& second,
-                 const std::vector<int>& second_rows, const MatchingRules& rules)
+  CandidatePairs(const FiniteRows& first, const FiniteRows& second, int size,
+                 const MatchingRules& rules)
       : first_(first),
-        first_rows_(first_rows),
         second_(second),
-        second_rows_(second_rows),
+        size_(size),
         rules_(rules),
-        columns_(second, second_rows),
-        keeps_all_(first_rows.size() * columns_.count <= kLargestMatrix) {
-    estimates_.resize(keeps_all_ ? first_rows.size() * columns_.count : columns_.count);
-    for (std::size_t i = 0; keeps_all_ && i < first_rows.size(); ++i) {
-      estimate(i, estimates_.data() + i * columns_.count);
+        columns_(second.estimated, static_cast<std::size_t>(size)),
+        estimates_anything_(std::max(first.largest_squares, second.largest_squares) <=
+                            kLargestSquares),
+        margin_(estimateMargin(first.largest_squares + second.largest_squares,
+                               static_cast<std::size_t>(size))),
+        keeps_all_(first.rows.size() * columns_.count <= kLargestMatrix),
+        places_(columns_.count) {
+    estimates_.resize(keeps_all_ ? first.rows.size() * columns_.count : columns_.count);
+    if (keeps_all_) {
+      estimate(0, first.rows.size());
     }
-    if (asksForRatio(rules)) {
-      findLimits<SmallestTwo>([](const SmallestTwo& two) { return two.second; });
-    } else {
-      findLimits<Smallest>([](const Smallest& smallest) { return smallest.value; });
-    }
+    asksForRatio(rules) ? findSecondLimits() : findLimits();
   }
 
   // Offers row i of the first to the nearest of both sides.
   void offer(std::size_t i, std::vector<Nearest>* of_first, std::vector<Nearest>* of_second) {
-    const float* const row = estimatesOf(i);
-    for (std::size_t j = 0; j < second_rows_.size(); ++j) {
-      if (row[j] <= std::max(first_limits_[i], second_limits_[j])) {
-        const double distance = squaredDistance(first_.ptr<float>(first_rows_[i]),
-                                                second_.ptr<float>(second_rows_[j]), first_.cols);
-        (*of_first)[i].offer(j, distance);
-        (*of_second)[j].offer(i, distance);
-      }
+    const std::size_t count = findCandidates(estimatesOf(i), columns_.count, first_limits_[i],
+                                             second_limits_.data(), places_.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t j = places_[k];
+      const double distance =
+          squaredDistance(first_.estimated[i].values, second_.estimated[j].values, size_);
+      (*of_first)[i].offer(j, distance);
+      (*of_second)[j].offer(i, distance);
     }
   }
 
  private:
-  struct Smallest {
-    float value = std::numeric_limits<float>::infinity();
-
-    void offer(float other) { value = std::min(value, other); }
-  };
-
   // Estimates of all pairs, 64 MB; where there are more each row is estimated when it is asked for.
   static constexpr std::size_t kLargestMatrix = std::size_t{1} << 24;
 
-  // Pairs that may not match get NaN, with which nothing compares.
-  void estimate(std::size_t i, float* row) const {
-    estimateDistances(first_.ptr<float>(first_rows_[i]), columns_.values.data(),
-                      static_cast<std::size_t>(first_.cols), columns_.count, row);
-    for (std::size_t j = 0; rules_.may_match && j < second_rows_.size(); ++j) {
-      if (!rules_.may_match(static_cast<std::size_t>(first_rows_[i]),
-                            static_cast<std::size_t>(second_rows_[j]))) {
-        row[j] = std::numeric_limits<float>::quiet_NaN();
+  // Of rows first to first + count. Pairs that may not match get NaN, with which nothing compares.
+  void estimate(std::size_t first, std::size_t count) {
+    estimateDistances(first_.estimated.data() + first, count,
+                      {columns_.values.data(), columns_.squares.data(),
+                       static_cast<std::size_t>(size_), columns_.count},
+                      estimates_.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      float* const row = estimates_.data() + i * columns_.count;
+      if (!estimates_anything_) {
+        std::fill_n(row, second_.rows.size(), 0.0F);  // every distance is measured
+      }
+      for (std::size_t j = 0; rules_.may_match && j < second_.rows.size(); ++j) {
+        if (!rules_.may_match(static_cast<std::size_t>(first_.rows[first + i]),
+                              static_cast<std::size_t>(second_.rows[j]))) {
+          row[j] = std::numeric_limits<float>::quiet_NaN();
+        }
       }
     }
   }
@@ -237,40 +282,54 @@ class CandidatePairs {
     if (keeps_all_) {
       return estimates_.data() + i * columns_.count;
     }
-    estimate(i, estimates_.data());
+    estimate(i, 1);
     return estimates_.data();
   }
 
-  // `Lowest` takes the estimates of a row or column, `limit` says which of them counts.
-  template <typename Lowest, typename Limit>
-  void findLimits(const Limit& limit) {
-    std::vector<Lowest> of_second(second_rows_.size());
-    first_limits_.resize(first_rows_.size());
-    for (std::size_t i = 0; i < first_rows_.size(); ++i) {
-      const float* const row = estimatesOf(i);
-      Lowest of_first;
-      for (std::size_t j = 0; j < second_rows_.size(); ++j) {
-        of_first.offer(row[j]);
-        of_second[j].offer(row[j]);
-      }
-      first_limits_[i] = farthestEstimate(limit(of_first), first_.cols);
+  // From the lowest estimate of every row and column.
+  void findLimits() {
+    second_limits_.assign(columns_.count, std::numeric_limits<float>::infinity());
+    first_limits_.resize(first_.rows.size());
+    for (std::size_t i = 0; i < first_.rows.size(); ++i) {
+      first_limits_[i] =
+          takeLowest(estimatesOf(i), columns_.count, second_limits_.data()) + margin_;
     }
-    second_limits_.resize(second_rows_.size());
-    for (std::size_t j = 0; j < second_rows_.size(); ++j) {
-      second_limits_[j] = farthestEstimate(limit(of_second[j]), first_.cols);
+    for (float& limit : second_limits_) {
+      limit += margin_;
     }
   }
 
-  const cv::Mat& first_;
-  const std::vector<int>& first_rows_;
-  const cv::Mat& second_;
-  const std::vector<int>& second_rows_;
+  // From the second lowest.
+  void findSecondLimits() {
+    std::vector<SmallestTwo> of_second(columns_.count);
+    first_limits_.resize(first_.rows.size());
+    for (std::size_t i = 0; i < first_.rows.size(); ++i) {
+      const float* const row = estimatesOf(i);
+      SmallestTwo of_first;
+      for (std::size_t j = 0; j < second_.rows.size(); ++j) {
+        of_first.offer(row[j]);
+        of_second[j].offer(row[j]);
+      }
+      first_limits_[i] = of_first.second + margin_;
+    }
+    second_limits_.resize(columns_.count);
+    for (std::size_t j = 0; j < columns_.count; ++j) {
+      second_limits_[j] = of_second[j].second + margin_;
+    }
+  }
+
+  const FiniteRows& first_;
+  const FiniteRows& second_;
+  int size_;
   const MatchingRules& rules_;
   Columns columns_;
+  bool estimates_anything_;
+  float margin_;
   bool keeps_all_;
   std::vector<float> estimates_;
   std::vector<float> first_limits_;
   std::vector<float> second_limits_;
+  std::vector<std::uint32_t> places_;
 };
 
 }  // namespace
@@ -283,14 +342,14 @@ LineMatches matchDescriptors(const cv::Mat& first, const cv::Mat& second,
     return {};
   }
   requireEqualWidth(first, second);
-  const std::vector<int> first_rows = finiteRows(first);
-  const std::vector<int> second_rows = finiteRows(second);
-  CandidatePairs candidates(first, first_rows, second, second_rows, rules);
+  const FiniteRows first_rows(first);
+  const FiniteRows second_rows(second);
+  CandidatePairs candidates(first_rows, second_rows, first.cols, rules);
   const auto offer = [&](std::size_t i, auto* of_first, auto* of_second) {
     candidates.offer(i, of_first, of_second);
   };
   LineMatches matches;
-  for (const NearestPair& pair : pairNearest(first_rows, second_rows, rules, offer)) {
+  for (const NearestPair& pair : pairNearest(first_rows.rows, second_rows.rows, rules, offer)) {
     const double distance = std::sqrt(pair.distance);
     if (keeps(rules, distance, std::sqrt(pair.rival))) {
       matches.push_back(makeMatch(pair, distance));

@@ -1,4 +1,4 @@
-// The loop for any processor, and the choice between it and the wide one.
+// The loops for any processor, and the choice between them and the wide ones.
 #include "distance_estimates.h"
 
 #include <opencv2/core/utility.hpp>
@@ -9,19 +9,34 @@ namespace evolin {
 
 namespace generic {
 
-void estimateDistances(const float* row, const float* columns, std::size_t size, std::size_t count,
-                       float* estimates) {
-  estimate<FourColumns>(row, columns, size, count, estimates);
-}
+EstimateFunctions estimateFunctions() { return functionsFor<FourColumns>(); }
 
 }  // namespace generic
 
-void estimateDistances(const float* row, const float* columns, std::size_t size, std::size_t count,
-                       float* estimates) {
-  static const bool has_wide =
-      cv::checkHardwareSupport(CV_CPU_AVX2) && cv::checkHardwareSupport(CV_CPU_FMA3);
-  (has_wide ? wide::estimateDistances : generic::estimateDistances)(row, columns, size, count,
-                                                                    estimates);
+namespace {
+
+const EstimateFunctions& best() {
+  static const EstimateFunctions functions =
+      cv::checkHardwareSupport(CV_CPU_AVX2) && cv::checkHardwareSupport(CV_CPU_FMA3)
+          ? wide::estimateFunctions()
+          : generic::estimateFunctions();
+  return functions;
+}
+
+}  // namespace
+
+void estimateDistances(const EstimateRow* rows, std::size_t row_count,
+                       const EstimateColumns& columns, float* estimates) {
+  best().estimate(rows, row_count, columns, estimates);
+}
+
+float takeLowest(const float* estimates, std::size_t count, float* of_columns) {
+  return best().take_lowest(estimates, count, of_columns);
+}
+
+std::size_t findCandidates(const float* estimates, std::size_t count, float limit,
+                           const float* limits, std::uint32_t* places) {
+  return best().find_candidates(estimates, count, limit, limits, places);
 }
 
 }  // namespace evolin

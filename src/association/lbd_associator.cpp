@@ -6,7 +6,6 @@
 #include <string>
 
 #include "evolin_ros/association/descriptor_matching.h"
-#include "evolin_ros/association/lbd_descriptor.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/parameters.h"
 
@@ -24,27 +23,6 @@ struct LbdDescription {
 bool hasLength(const LineSegment& line) {
   return static_cast<float>(line.x1) != static_cast<float>(line.x2) ||
          static_cast<float>(line.y1) != static_cast<float>(line.y2);
-}
-
-cv::Mat descriptorsOf(const FrameLines& lines) {
-  const auto* known = std::any_cast<LbdDescription>(&lines.description);
-  if (known != nullptr && known->descriptors.rows == static_cast<int>(lines.lines.size())) {
-    return known->descriptors;
-  }
-  LbdDescription description;
-  if (!lines.lines.empty()) {
-    description.descriptors = describeLbd(toGray(lines.frame.image), lines.lines);
-  }
-  for (std::size_t i = 0; i < lines.lines.size(); ++i) {
-    // Without a direction all descriptors are equal; NaN keeps the matcher from pairing them.
-    if (!hasLength(lines.lines[i])) {
-      description.descriptors.row(static_cast<int>(i))
-          .setTo(std::numeric_limits<float>::quiet_NaN());
-    }
-  }
-  const cv::Mat descriptors = description.descriptors;
-  lines.description = std::move(description);
-  return descriptors;
 }
 
 }  // namespace
@@ -71,6 +49,27 @@ LineMatches LbdAssociator::match(const FrameLines& first, const FrameLines& seco
   }
   return matchDescriptors(descriptorsOf(first), descriptorsOf(second),
                           matchingRules(parameters_, first.lines, second.lines));
+}
+
+cv::Mat LbdAssociator::descriptorsOf(const FrameLines& lines) {
+  const auto* known = std::any_cast<LbdDescription>(&lines.description);
+  if (known != nullptr && known->descriptors.rows == static_cast<int>(lines.lines.size())) {
+    return known->descriptors;
+  }
+  LbdDescription description;
+  if (!lines.lines.empty()) {
+    description.descriptors = describer_.describe(toGray(lines.frame.image), lines.lines);
+  }
+  for (std::size_t i = 0; i < lines.lines.size(); ++i) {
+    // Without a direction all descriptors are equal; NaN keeps the matcher from pairing them.
+    if (!hasLength(lines.lines[i])) {
+      description.descriptors.row(static_cast<int>(i))
+          .setTo(std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+  const cv::Mat descriptors = description.descriptors;
+  lines.description = std::move(description);
+  return descriptors;
 }
 
 }  // namespace evolin

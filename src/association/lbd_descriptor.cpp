@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "evolin_ros/base/error.h"
+#include "lbd_gradient.h"
 #include "lbd_rows.h"
 
 namespace evolin {
@@ -23,50 +23,6 @@ constexpr int kHalfRows = (kRows - 1) / 2;
 constexpr int kSums = kLbdSums;
 constexpr float kClip = 0.4F;
 constexpr float kNormGuard = 1e-5F;
-
-// Sobel's two filters share their sums over a column, and both see the border pixel beyond it. The
-// rows do not overlap, which lets the compiler take many pixels at a time.
-void sumColumns(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
-                const std::uint8_t* __restrict below, int width, std::int16_t* __restrict sum,
-                std::int16_t* __restrict difference) {
-  for (int x = 0; x < width; ++x) {
-    sum[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
-    difference[x] = static_cast<std::int16_t>(below[x] - above[x]);
-  }
-}
-
-// From one pixel left of a row to one right of it: to words of both derivatives.
-void combineColumns(const std::int16_t* __restrict sum, const std::int16_t* __restrict difference,
-                    int width, std::int32_t* __restrict out) {
-  for (int x = 0; x < width; ++x) {
-    const int dx = sum[x + 2] - sum[x];
-    const int dy = difference[x] + 2 * difference[x + 1] + difference[x + 2];
-    out[x] = (dx & 0xFFFF) + dy * 65536;
-  }
-}
-
-cv::Mat1i computeGradient(const cv::Mat& gray) {
-  cv::Mat smooth;
-  // OpenCV's filters would see the pixels around a window into a larger image.
-  const cv::Mat own = gray.isSubmatrix() ? gray.clone() : gray;
-  cv::GaussianBlur(own, smooth, cv::Size(5, 5), 1.0, 1.0, cv::BORDER_REPLICATE);
-
-  cv::Mat1i gradient(gray.size());
-  std::vector<std::int16_t> sums(static_cast<std::size_t>(gray.cols) + 2);
-  std::vector<std::int16_t> differences(sums.size());
-  for (int y = 0; y < gray.rows; ++y) {
-    const int above = std::max(y - 1, 0);
-    const int below = std::min(y + 1, gray.rows - 1);
-    sumColumns(smooth.ptr(above), smooth.ptr(y), smooth.ptr(below), gray.cols, sums.data() + 1,
-               differences.data() + 1);
-    for (std::vector<std::int16_t>* row : {&sums, &differences}) {
-      row->front() = (*row)[1];
-      row->back() = (*row)[row->size() - 2];
-    }
-    combineColumns(sums.data(), differences.data(), gray.cols, gradient[y]);
-  }
-  return gradient;
-}
 
 // Weights of the rows over the whole support and over three neighbouring bands.
 struct Weights {
@@ -128,52 +84,64 @@ bool isInside(const LbdSupport& support, int width, int height) {
   return true;
 }
 
-// Means and standard deviations of the weighted rows in each band and its neighbours. Band by band:
-// GCC 10 leaves rows out of the sums where a row is spread over its bands instead.
+// A row's four sums side by side. Spelled out: GCC 10 leaves rows out of sums that it arranges so
+// itself.
+using Sums __attribute__((vector_size(kSums * sizeof(float)))) = float;
+
+constexpr int kBandsAtOnce = 3;  // whose sums do not wait for each other
+
+// Means and standard deviations of the weighted rows in each band and its neighbours.
 void bandStatistics(const LbdRowSums& sums, const Weights& weights, float* descriptor) {
-  std::array<std::array<float, kSums>, kRows> values;
+  // A band beyond the support does not exist; rows of zeros leave the sums as they are.
+  std::array<Sums, kRows + 2 * kBandRows> rows{};
   for (int h = 0; h < kRows; ++h) {
-    for (int s = 0; s < kSums; ++s) {
-      values[h][s] = weights.global[h] * sums.values[s][h];
-    }
+    rows[kBandRows + h] = weights.global[h] * Sums{sums.values[0][h], sums.values[1][h],
+                                                   sums.values[2][h], sums.values[3][h]};
   }
-  for (int b = 0; b < kBands; ++b) {
-    const int first = (b - 1) * kBandRows;
-    // A band beyond the support does not exist.
-    const int begin = std::max(first, 0);
-    const int end = std::min((b + 2) * kBandRows, kRows);
-    std::array<float, kSums> total{};
-    std::array<float, kSums> squares{};
-    for (int h = begin; h < end; ++h) {
-      for (int s = 0; s < kSums; ++s) {
-        const float weighted = weights.local[h - first] * values[h][s];
-        total[s] += weighted;
-        squares[s] += weighted * weighted;
+  for (int band = 0; band < kBands; band += kBandsAtOnce) {
+    Sums total[kBandsAtOnce] = {};
+    Sums squares[kBandsAtOnce] = {};
+    for (int i = 0; i < 3 * kBandRows; ++i) {
+      for (int b = 0; b < kBandsAtOnce; ++b) {
+        const Sums weighted = weights.local[i] * rows[(band + b) * kBandRows + i];
+        total[b] += weighted;
+        squares[b] += weighted * weighted;
       }
     }
-    const float inverse = 1.0F / static_cast<float>(end - begin);
-    float* const out = descriptor + b * 2 * kSums;
-    for (int s = 0; s < kSums; ++s) {
-      const float mean = total[s] * inverse;
-      out[s] = mean;
-      out[kSums + s] = std::sqrt(std::max(0.0F, squares[s] * inverse - mean * mean));
+    for (int b = 0; b < kBandsAtOnce; ++b) {
+      const bool outermost = band + b == 0 || band + b == kBands - 1;
+      const float inverse = 1.0F / static_cast<float>((outermost ? 2 : 3) * kBandRows);
+      const Sums mean = total[b] * inverse;
+      const Sums variance = squares[b] * inverse - mean * mean;
+      float* const out = descriptor + (band + b) * 2 * kSums;
+      for (int s = 0; s < kSums; ++s) {
+        out[s] = mean[s];
+        out[kSums + s] = std::sqrt(std::max(0.0F, variance[s]));
+      }
     }
   }
 }
 
+// Means and deviations to the same length, and all of them to length 1.
 void normalize(float* descriptor) {
   float mean_squares = 0;
   float deviation_squares = 0;
-  for (int i = 0; i < kLbdSize; ++i) {
-    float& squares = i % (2 * kSums) < kSums ? mean_squares : deviation_squares;
-    squares += descriptor[i] * descriptor[i];
+  for (const float* band = descriptor; band < descriptor + kLbdSize; band += 2 * kSums) {
+    for (int s = 0; s < kSums; ++s) {
+      mean_squares += band[s] * band[s];
+      deviation_squares += band[kSums + s] * band[kSums + s];
+    }
   }
   const float mean_scale = 1.0F / (kNormGuard + std::sqrt(mean_squares));
   const float deviation_scale = 1.0F / (kNormGuard + std::sqrt(deviation_squares));
+  for (float* band = descriptor; band < descriptor + kLbdSize; band += 2 * kSums) {
+    for (int s = 0; s < kSums; ++s) {
+      band[s] = std::min(band[s] * mean_scale, kClip);
+      band[kSums + s] = std::min(band[kSums + s] * deviation_scale, kClip);
+    }
+  }
   float all_squares = 0;
   for (int i = 0; i < kLbdSize; ++i) {
-    const float scale = i % (2 * kSums) < kSums ? mean_scale : deviation_scale;
-    descriptor[i] = std::min(descriptor[i] * scale, kClip);
     all_squares += descriptor[i] * descriptor[i];
   }
   const float scale = 1.0F / (kNormGuard + std::sqrt(all_squares));
@@ -187,7 +155,16 @@ bool isDescribable(float coordinate) { return std::abs(coordinate) <= kLbdLarges
 
 }  // namespace
 
-cv::Mat describeLbd(const cv::Mat& gray, const LineSegments& lines) {
+struct LbdDescriber::Memory {
+  LbdGradient gradient;
+  const Weights weights;
+};
+
+LbdDescriber::LbdDescriber() : memory_(std::make_unique<Memory>()) {}
+
+LbdDescriber::~LbdDescriber() = default;
+
+cv::Mat LbdDescriber::describe(const cv::Mat& gray, const LineSegments& lines) {
   if (gray.empty() || gray.type() != CV_8UC1) {
     throw Error("LBD: the image is " + std::to_string(gray.cols) + "x" + std::to_string(gray.rows) +
                 " of OpenCV type " + std::to_string(gray.type()) +
@@ -197,8 +174,9 @@ cv::Mat describeLbd(const cv::Mat& gray, const LineSegments& lines) {
   if (lines.empty()) {
     return descriptors;
   }
-  const cv::Mat1i gradient = computeGradient(gray);
-  const Weights weights;
+  const LbdGradientView gradient = {
+      memory_->gradient.compute({gray.data, gray.step, gray.cols, gray.rows}), gray.cols,
+      gray.rows};
   for (std::size_t i = 0; i < lines.size(); ++i) {
     float* const descriptor = descriptors.ptr<float>(static_cast<int>(i));
     const auto x1 = static_cast<float>(lines[i].x1);
@@ -214,12 +192,15 @@ cv::Mat describeLbd(const cv::Mat& gray, const LineSegments& lines) {
       continue;  // the row stays zero
     }
     LbdRowSums sums;
-    sumLbdRows({gradient[0], gradient.cols, gradient.rows}, support,
-               !isInside(support, gradient.cols, gradient.rows), &sums);
-    bandStatistics(sums, weights, descriptor);
+    sumLbdRows(gradient, support, !isInside(support, gray.cols, gray.rows), &sums);
+    bandStatistics(sums, memory_->weights, descriptor);
     normalize(descriptor);
   }
   return descriptors;
+}
+
+cv::Mat describeLbd(const cv::Mat& gray, const LineSegments& lines) {
+  return LbdDescriber().describe(gray, lines);
 }
 
 }  // namespace evolin

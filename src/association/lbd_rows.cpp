@@ -1,4 +1,4 @@
-// The loops for any processor, and the choice between them and the wide ones.
+// The loops for any processor, and the choice between them and the wider ones.
 #include "lbd_rows.h"
 
 #include <opencv2/core/utility.hpp>
@@ -19,8 +19,10 @@ void sumLbdRows(const LbdGradientView& gradient, const LbdSupport& support, bool
 
 void sumLbdRows(const LbdGradientView& gradient, const LbdSupport& support, bool clamped,
                 LbdRowSums* sums) {
-  static const bool has_wide = cv::checkHardwareSupport(CV_CPU_AVX2);
-  (has_wide ? wide::sumLbdRows : generic::sumLbdRows)(gradient, support, clamped, sums);
+  static const auto best = cv::checkHardwareSupport(CV_CPU_AVX512_SKX) ? widest::sumLbdRows
+                           : cv::checkHardwareSupport(CV_CPU_AVX2)     ? wide::sumLbdRows
+                                                                       : generic::sumLbdRows;
+  best(gradient, support, clamped, sums);
 }
 
 }  // namespace evolin

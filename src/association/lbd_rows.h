@@ -43,5 +43,10 @@ namespace wide {
 void sumLbdRows(const LbdGradientView& gradient, const LbdSupport& support, bool clamped,
                 LbdRowSums* sums);
 }
+/// For those with AVX-512 (F, DQ, BW and VL).
+namespace widest {
+void sumLbdRows(const LbdGradientView& gradient, const LbdSupport& support, bool clamped,
+                LbdRowSums* sums);
+}
 
 }  // namespace evolin

@@ -9,13 +9,18 @@ namespace evolin {
 
 namespace {
 
+/// What the loops need of a processor, in terms of the compiler's own vectors.
 struct FourFloats {
   using Float __attribute__((vector_size(16))) = float;
   using Int __attribute__((vector_size(16))) = std::int32_t;
-};
-struct EightFloats {
-  using Float __attribute__((vector_size(32))) = float;
-  using Int __attribute__((vector_size(32))) = std::int32_t;
+
+  static Int gather(const std::int32_t* pixels, const std::uint32_t* places) {
+    return Int{pixels[places[0]], pixels[places[1]], pixels[places[2]], pixels[places[3]]};
+  }
+  static Int lowerHalves(const Int& words) { return (words << 16) >> 16; }
+  /// The values above zero and zeros in place of the others.
+  static Float positive(const Float& values) { return values > Float{} ? values : Float{}; }
+  static Float negative(const Float& values) { return values < Float{} ? values : Float{}; }
 };
 
 template <class Vectors>
@@ -50,14 +55,15 @@ class LbdLoops {
     __builtin_memcpy(row, &values, sizeof(values));
   }
 
-  /// Positions are never below zero after the clamp, so cutting off the fraction of x + 0.5 rounds
-  /// halves away from zero.
+  /// Samples whose places are found at a time, before any of their pixels is asked for: a
+  /// processor then has many of both under way, as no place has to pass from its vector registers
+  /// to the others.
+  static constexpr int kStretch = 64;
+
   template <bool clamped>
   static void sumLanes(const LbdGradientView& gradient, const LbdSupport& support,
                        const float* start_x, const float* start_y, int lane, LbdRowSums* sums) {
     const Float none = {};
-    const Float last_x = none + static_cast<float>(gradient.width - 1);
-    const Float last_y = none + static_cast<float>(gradient.height - 1);
     const float along_x = support.along_x;
     const float along_y = support.along_y;
     const std::int32_t* const pixels = gradient.pixels;
@@ -69,7 +75,39 @@ class LbdLoops {
     Float along_negative = none;
     Float across_positive = none;
     Float across_negative = none;
-    for (int k = 0; k < support.samples; ++k) {
+    for (int left = support.samples; left > 0; left -= kStretch) {
+      const int count = left < kStretch ? left : kStretch;
+      std::uint32_t places[kStretch * kWidth];
+      findPlaces<clamped>(gradient, support, count, &x, &y, places);
+      for (int k = 0; k < count; ++k) {
+        const Int words = Vectors::gather(pixels, places + k * kWidth);
+        const Float dx = __builtin_convertvector(Vectors::lowerHalves(words), Float);
+        const Float dy = __builtin_convertvector(words >> 16, Float);
+        const Float along = dx * along_x + dy * along_y;
+        const Float across = dy * along_x - dx * along_y;
+        along_positive += Vectors::positive(along);
+        along_negative += Vectors::negative(along);
+        across_positive += Vectors::positive(across);
+        across_negative += Vectors::negative(across);
+      }
+    }
+    store(along_positive, sums->values[0] + lane);
+    store(none - along_negative, sums->values[1] + lane);
+    store(across_positive, sums->values[2] + lane);
+    store(none - across_negative, sums->values[3] + lane);
+  }
+
+  /// Of `count` samples, and moves the position on to the next one. Positions are never below zero
+  /// after the clamp, so cutting off the fraction of x + 0.5 rounds halves away from zero.
+  template <bool clamped>
+  static void findPlaces(const LbdGradientView& gradient, const LbdSupport& support, int count,
+                         Float* x_io, Float* y_io, std::uint32_t* places) {
+    const Float none = {};
+    const Float last_x = none + static_cast<float>(gradient.width - 1);
+    const Float last_y = none + static_cast<float>(gradient.height - 1);
+    Float x = *x_io;
+    Float y = *y_io;
+    for (int k = 0; k < count; ++k) {
       Float px = x;
       Float py = y;
       if (clamped) {
@@ -80,27 +118,12 @@ class LbdLoops {
       }
       const Int place = __builtin_convertvector(py + 0.5F, Int) * gradient.width +
                         __builtin_convertvector(px + 0.5F, Int);
-      Int word;
-      for (int i = 0; i < kWidth; ++i) {
-        word[i] = pixels[place[i]];
-      }
-      const Float dx = __builtin_convertvector((word << 16) >> 16, Float);
-      const Float dy = __builtin_convertvector(word >> 16, Float);
-      const Float along = dx * along_x + dy * along_y;
-      const Float across = dy * along_x - dx * along_y;
-      const Float forward = along > none ? along : none;
-      const Float upward = across > none ? across : none;
-      along_positive += forward;
-      along_negative += forward - along;  // exact: one of the two is zero, or both are equal
-      across_positive += upward;
-      across_negative += upward - across;
-      x += along_x;
-      y += along_y;
+      __builtin_memcpy(places + k * kWidth, &place, sizeof(place));
+      x += support.along_x;
+      y += support.along_y;
     }
-    store(along_positive, sums->values[0] + lane);
-    store(along_negative, sums->values[1] + lane);
-    store(across_positive, sums->values[2] + lane);
-    store(across_negative, sums->values[3] + lane);
+    *x_io = x;
+    *y_io = y;
   }
 };
 

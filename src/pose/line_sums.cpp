@@ -18,8 +18,8 @@ void lineSums(const LineTableView& table, const LineMotion& motion, double delta
 namespace {
 
 auto bestLoops() {
-  if (cv::checkHardwareSupport(CV_CPU_AVX_512F) && cv::checkHardwareSupport(CV_CPU_AVX_512VL)) {
-    return &roomy::lineSums;
+  if (cv::checkHardwareSupport(CV_CPU_AVX512_SKX)) {
+    return &widest::lineSums;
   }
   return cv::checkHardwareSupport(CV_CPU_AVX2) ? &wide::lineSums : &generic::lineSums;
 }

@@ -56,8 +56,8 @@ void lineSums(const LineTableView& table, const LineMotion& motion, double delta
 namespace wide {
 void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums);
 }
-/// For processors with AVX-512 (F and VL): as wide as the last, with twice the registers.
-namespace roomy {
+/// For processors with AVX-512 (F, DQ, BW, VL): vectors as wide, in twice the registers.
+namespace widest {
 void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums);
 }
 

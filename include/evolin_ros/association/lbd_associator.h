@@ -1,7 +1,10 @@
 // Associates lines by the float line band descriptor (Zhang, Koch 2013).
 #pragma once
 
+#include <opencv2/core.hpp>
+
 #include "evolin_ros/association/descriptor_choice.h"
+#include "evolin_ros/association/lbd_descriptor.h"
 #include "evolin_ros/association/line_associator.h"
 
 namespace evolin {
@@ -23,6 +26,10 @@ class LbdAssociator : public LineAssociator {
   const LbdParameters& parameters() const { return parameters_; }
 
  private:
+  /// Of a frame, described now where its description is not this method's.
+  cv::Mat descriptorsOf(const FrameLines& lines);
+
+  LbdDescriber describer_;
   LbdParameters parameters_{kLbdLargestDistance};
   bool configured_ = false;
 };

@@ -3,6 +3,7 @@
 // 2013).
 #pragma once
 
+#include <memory>
 #include <opencv2/core.hpp>
 
 #include "evolin_ros/geometry/line_segment.h"
@@ -20,5 +21,21 @@ constexpr float kLbdLargestCoordinate = 32767.0F;
 /// region outside the image see the nearest border pixel. A line whose endpoints coincide has a row
 /// of zeros; one with a coordinate that is not finite or beyond kLbdLargestCoordinate a row of NaN.
 cv::Mat describeLbd(const cv::Mat& gray, const LineSegments& lines);
+
+/// The same for image after image: the memory that it needs on the way is kept for the next one.
+/// An instance serves one thread at a time.
+class LbdDescriber {
+ public:
+  LbdDescriber();
+  ~LbdDescriber();
+  LbdDescriber(const LbdDescriber&) = delete;
+  LbdDescriber& operator=(const LbdDescriber&) = delete;
+
+  cv::Mat describe(const cv::Mat& gray, const LineSegments& lines);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
 
 }  // namespace evolin

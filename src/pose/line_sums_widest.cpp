@@ -2,10 +2,10 @@
 #include "line_sums.h"
 #include "line_sums_kernel.h"
 
-namespace evolin::roomy {
+namespace evolin::widest {
 
 void lineSums(const LineTableView& table, const LineMotion& motion, double delta, LineSums* sums) {
   LineLoops<FourWide>::sum(table, motion, delta, sums);
 }
 
-}  // namespace evolin::roomy
+}  // namespace evolin::widest
