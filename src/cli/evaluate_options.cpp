@@ -133,16 +133,28 @@ int threadsFor(const EvaluateOptions& options, std::size_t tasks) {
   return static_cast<int>(std::min<std::size_t>(wanted, std::max<std::size_t>(tasks, 1)));
 }
 
-std::vector<ConfidenceInterval> intervalsFor(const EvaluateOptions& options, std::size_t frames,
-                                             const WeightedFigures& figures) {
-  if (options.resamples == 0) {
-    return {};
-  }
+namespace {
+
+BootstrapOptions bootstrapOf(const EvaluateOptions& options) {
   BootstrapOptions bootstrap;
   bootstrap.resamples = options.resamples;
   bootstrap.block_length = options.block_length;
   bootstrap.seed = options.seed;
-  return blockBootstrap(frames, bootstrap, figures);
+  return bootstrap;
+}
+
+}  // namespace
+
+std::vector<ConfidenceInterval> intervalsFor(const EvaluateOptions& options, std::size_t frames,
+                                             const WeightedFigures& figures) {
+  return options.resamples == 0 ? std::vector<ConfidenceInterval>()
+                                : blockBootstrap(frames, bootstrapOf(options), figures);
+}
+
+std::vector<ConfidenceInterval> intervalsForMany(const EvaluateOptions& options, std::size_t frames,
+                                                 const FiguresOfResamples& figures) {
+  return options.resamples == 0 ? std::vector<ConfidenceInterval>()
+                                : blockBootstrapOfMany(frames, bootstrapOf(options), figures);
 }
 
 void deliverResults(const EvaluateOptions& options, const std::vector<PublishedEntry>& entries) {

@@ -44,6 +44,10 @@ int threadsFor(const EvaluateOptions& options, std::size_t tasks);
 std::vector<ConfidenceInterval> intervalsFor(const EvaluateOptions& options, std::size_t frames,
                                              const WeightedFigures& figures);
 
+/// The same for figures that are found quicker for many resamples at a time.
+std::vector<ConfidenceInterval> intervalsForMany(const EvaluateOptions& options, std::size_t frames,
+                                                 const FiguresOfResamples& figures);
+
 /// Writes DIR/FILE where --output was given, so that later runs may overwrite that file, and prints
 /// the results in the asked form.
 void deliverResults(const EvaluateOptions& options, const std::vector<PublishedEntry>& entries);

@@ -1,5 +1,7 @@
 // `evolin evaluate vectorized`.
+#include <algorithm>
 #include <boost/program_options/value_semantic.hpp>
+#include <iterator>
 #include <limits>
 
 #include "classification_entries.h"
@@ -120,14 +122,17 @@ void addRankingEntries(const VectorizedMetrics& metrics, const EvaluateOptions& 
   const ScoreRanking ranking = metrics.ranking();
   const std::vector<std::optional<double>> values = ranking.averagePrecisions();
   ResampledPrecision resampled(ranking);
-  const std::vector<ConfidenceInterval> intervals = intervalsFor(
-      options, metrics.frames(), [&resampled](const std::vector<std::uint32_t>& weights) {
-        std::vector<double> figures;
-        for (const std::optional<double>& value : resampled.averagePrecisions(weights)) {
-          figures.push_back(orNan(value));
-        }
-        return figures;
-      });
+  const std::vector<ConfidenceInterval> intervals =
+      intervalsForMany(options, metrics.frames(),
+                       [&resampled](const std::vector<std::vector<std::uint32_t>>& resamples) {
+                         std::vector<std::vector<double>> rows;
+                         for (const auto& precisions : resampled.averagePrecisions(resamples)) {
+                           rows.emplace_back();
+                           std::transform(precisions.begin(), precisions.end(),
+                                          std::back_inserter(rows.back()), orNan);
+                         }
+                         return rows;
+                       });
   for (std::size_t setting = 0; setting < metrics.settings().size(); ++setting) {
     PublishedEntry area = entryFor("average_precision", metrics.settings()[setting]);
     area.value = orNan(values[setting]);

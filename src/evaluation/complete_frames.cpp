@@ -56,7 +56,7 @@ class CompleteFrames : public PartReader {
       --images_ahead_;
       if (filled_ == 0) {
         fill(&image->frame);
-        depths_.trim(image->frame.stamp);
+        depths_.trim(image->frame.stamp, [](Stamp) { return true; });
         trajectory_.forgetBefore(image->frame.stamp);
       }
     }

@@ -147,9 +147,22 @@ MotionUpdate MotionEvaluation::addDepth(Stamp stamp, DepthMap depth) {
   resolveAll(false, &update);
   advance(false, &update);
   if (settled_) {
-    depth_.trim(*settled_);
+    depth_.trim(*settled_, [this](Stamp depth_stamp) { return mayBeLackedAt(depth_stamp); });
   }
   return update;
+}
+
+/// Whether lines of a frame that depth of this stamp may belong to have not come or not been lifted
+/// yet; of a frame that nothing was heard of, they have not.
+bool MotionEvaluation::mayBeLackedAt(Stamp depth_stamp) const {
+  const auto lacks = [](const Lifting& lifting) {
+    return lifting.state == State::kAbsent || lifting.state == State::kWaiting;
+  };
+  const auto first = nodes_.lower_bound(depth_stamp - options_.max_time_difference);
+  const auto last = nodes_.upper_bound(depth_stamp + options_.max_time_difference);
+  return first == last || std::any_of(first, last, [&](const Nodes::value_type& node) {
+           return lacks(node.second.detected) || (options_.pose && lacks(node.second.truth));
+         });
 }
 
 MotionUpdate MotionEvaluation::addPose(const StampedPose& pose) {

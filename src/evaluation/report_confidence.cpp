@@ -19,20 +19,33 @@ class Resampling {
       : options_(options), confidence_(confidence) {}
 
   void add(std::size_t count, std::vector<FigureInterval> names, const WeightedFigures& figures) {
-    if (count == 0 || names.empty()) {
-      return;
+    if (count > 0 && !names.empty()) {
+      take(std::move(names), blockBootstrap(count, optionsFor(count), figures));
     }
+  }
+
+  void addOfMany(std::size_t count, std::vector<FigureInterval> names,
+                 const FiguresOfResamples& figures) {
+    if (count > 0 && !names.empty()) {
+      take(std::move(names), blockBootstrapOfMany(count, optionsFor(count), figures));
+    }
+  }
+
+ private:
+  BootstrapOptions optionsFor(std::size_t count) const {
     BootstrapOptions options = options_;
     options.block_length =
         static_cast<int>(std::min(static_cast<std::size_t>(options.block_length), count));
-    const std::vector<ConfidenceInterval> intervals = blockBootstrap(count, options, figures);
+    return options;
+  }
+
+  void take(std::vector<FigureInterval> names, const std::vector<ConfidenceInterval>& intervals) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       names[i].interval = intervals.at(i);
       confidence_->figures.push_back(std::move(names[i]));
     }
   }
 
- private:
   BootstrapOptions options_;
   ReportConfidence* confidence_;
 };
@@ -72,15 +85,19 @@ void addDetection(const VectorizedMetrics& detection, Resampling* resampling) {
     frames.push_back(detection.frameClassifications(i));
   }
   ResampledPrecision resampled(detection.ranking());
-  resampling->add(
-      detection.frames(), std::move(names), [&](const std::vector<std::uint32_t>& weights) {
-        const auto precisions = resampled.averagePrecisions(weights);
-        std::vector<double> figures;
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-          appendRatios(evolin::weightedSum(frames[i], weights), &figures);
-          figures.push_back(precisions[i].value_or(std::numeric_limits<double>::quiet_NaN()));
+  resampling->addOfMany(
+      detection.frames(), std::move(names),
+      [&](const std::vector<std::vector<std::uint32_t>>& resamples) {
+        const auto precisions = resampled.averagePrecisions(resamples);
+        std::vector<std::vector<double>> rows(resamples.size());
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+          for (std::size_t i = 0; i < frames.size(); ++i) {
+            appendRatios(evolin::weightedSum(frames[i], resamples[row]), &rows[row]);
+            rows[row].push_back(
+                precisions[row][i].value_or(std::numeric_limits<double>::quiet_NaN()));
+          }
         }
-        return figures;
+        return rows;
       });
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// The same for any number of threads, so that everything happens in the same order. Few enough
 /// that their memory is used again before it has left the processor's caches.
-constexpr std::size_t kImagesInBatch = 16;
+constexpr std::size_t kImagesInBatch = 8;
 constexpr std::size_t kPartsInBatch = 4096;
 
 class Run : public FrontEndSink {

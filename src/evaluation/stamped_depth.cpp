@@ -7,6 +7,15 @@
 
 namespace evolin {
 
+namespace {
+
+/// Images before those that are settled: as many frames as a front-end of several threads may give
+/// out late, and a second of those whose frames still lack something.
+constexpr std::ptrdiff_t kLeastSpare = 8;
+constexpr std::ptrdiff_t kMostSpare = 30;
+
+}  // namespace
+
 StampedDepth::StampedDepth(Stamp tolerance, std::size_t capacity)
     : tolerance_(tolerance), capacity_(std::max<std::size_t>(capacity, 1)) {}
 
@@ -23,10 +32,12 @@ void StampedDepth::forgetOldest() {
   images_.erase(images_.begin());
 }
 
-void StampedDepth::trim(Stamp settled) {
-  constexpr std::ptrdiff_t kSpare = 30;
-  while (std::distance(images_.begin(), images_.lower_bound(settled)) > kSpare) {
+void StampedDepth::trim(Stamp settled, const std::function<bool(Stamp)>& is_wanted) {
+  const auto first_kept = images_.lower_bound(settled - tolerance_);
+  auto before = std::distance(images_.begin(), first_kept);
+  while (before > kMostSpare || (before > kLeastSpare && !is_wanted(images_.begin()->first))) {
     forgetOldest();
+    --before;
   }
 }
 

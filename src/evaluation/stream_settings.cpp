@@ -137,9 +137,16 @@ void StreamEvaluator::remember(Input input, Key key, const AddTo& add) {
     return;
   }
   for (int other = 0; other < kInputs; ++other) {
-    const Stamp kept = other == kDepth || other == kPose ? key.first - kNeighbourhood : key.first;
+    Stamp kept = key.first;
+    std::size_t spare = 0;
+    if (other == kPose) {
+      kept -= kNeighbourhood;
+    } else if (other == kDepth) {  // images are large: none that no frame can ask for any more
+      kept -= options_.motion.max_time_difference;
+      spare = kMostLate;
+    }
     auto& parts = ahead_[other];
-    while (!parts.empty() && parts.front().first.first <= kept) {
+    while (parts.size() > spare && parts.front().first.first <= kept) {
       parts.pop_front();
     }
   }

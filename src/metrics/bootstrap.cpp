@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <string>
@@ -13,6 +14,9 @@
 namespace evolin {
 
 namespace {
+
+/// Their weights fit into the processor's caches for sequences of usual length.
+constexpr int kResamplesAtOnce = 256;
 
 void validate(std::size_t frames, const BootstrapOptions& options) {
   if (frames == 0) {
@@ -51,6 +55,21 @@ std::size_t automaticBlockLength(std::size_t frames) {
   return length;
 }
 
+/// How often each frame occurs in a row of blocks.
+std::vector<std::uint32_t> drawWeights(std::size_t frames, std::size_t block,
+                                       std::mt19937_64* generator) {
+  std::vector<std::uint32_t> weights(frames, 0);
+  for (std::size_t drawn = 0; drawn < frames; drawn += block) {
+    std::size_t frame = draw(generator, frames);
+    const std::size_t length = std::min(block, frames - drawn);
+    for (std::size_t i = 0; i < length; ++i) {
+      ++weights[frame];
+      frame = frame + 1 == frames ? 0 : frame + 1;
+    }
+  }
+  return weights;
+}
+
 /// `values` sorted and not empty.
 double percentile(const std::vector<double>& values, double fraction) {
   const double position = fraction * static_cast<double>(values.size() - 1);
@@ -63,27 +82,36 @@ double percentile(const std::vector<double>& values, double fraction) {
 
 std::vector<ConfidenceInterval> blockBootstrap(std::size_t frames, const BootstrapOptions& options,
                                                const WeightedFigures& figures) {
+  return blockBootstrapOfMany(
+      frames, options, [&figures](const std::vector<std::vector<std::uint32_t>>& resamples) {
+        std::vector<std::vector<double>> rows;
+        rows.reserve(resamples.size());
+        std::transform(resamples.begin(), resamples.end(), std::back_inserter(rows), figures);
+        return rows;
+      });
+}
+
+std::vector<ConfidenceInterval> blockBootstrapOfMany(std::size_t frames,
+                                                     const BootstrapOptions& options,
+                                                     const FiguresOfResamples& figures) {
   validate(frames, options);
   const std::size_t block = options.block_length > 0
                                 ? static_cast<std::size_t>(options.block_length)
                                 : automaticBlockLength(frames);
   std::mt19937_64 generator(options.seed);
   std::vector<std::vector<double>> samples;  // by figure
-  std::vector<std::uint32_t> weights(frames);
-  for (int resample = 0; resample < options.resamples; ++resample) {
-    std::fill(weights.begin(), weights.end(), 0);
-    for (std::size_t drawn = 0; drawn < frames; drawn += block) {
-      const std::size_t start = draw(&generator, frames);
-      const std::size_t length = std::min(block, frames - drawn);
-      for (std::size_t i = 0; i < length; ++i) {
-        ++weights[(start + i) % frames];
-      }
+  for (int begin = 0; begin < options.resamples; begin += kResamplesAtOnce) {
+    std::vector<std::vector<std::uint32_t>> resamples(
+        static_cast<std::size_t>(std::min(kResamplesAtOnce, options.resamples - begin)));
+    for (std::vector<std::uint32_t>& weights : resamples) {
+      weights = drawWeights(frames, block, &generator);
     }
-    const std::vector<double> values = figures(weights);
-    samples.resize(values.size());
-    for (std::size_t figure = 0; figure < values.size(); ++figure) {
-      if (!std::isnan(values[figure])) {
-        samples[figure].push_back(values[figure]);
+    for (const std::vector<double>& values : figures(resamples)) {
+      samples.resize(values.size());
+      for (std::size_t figure = 0; figure < values.size(); ++figure) {
+        if (!std::isnan(values[figure])) {
+          samples[figure].push_back(values[figure]);
+        }
       }
     }
   }

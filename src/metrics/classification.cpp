@@ -21,17 +21,6 @@ double Classification::fScore() const {
   return p + r > 0 ? 2 * p * r / (p + r) : 0.0;
 }
 
-Classification& Classification::operator+=(const Classification& other) {
-  true_positives += other.true_positives;
-  predicted += other.predicted;
-  ground_truth += other.ground_truth;
-  return *this;
-}
-
-Classification operator*(const Classification& counts, std::uint64_t times) {
-  return {counts.true_positives * times, counts.predicted * times, counts.ground_truth * times};
-}
-
 Classification weightedSum(const std::vector<Classification>& counts,
                            const std::vector<std::uint32_t>& weights) {
   Classification sum;

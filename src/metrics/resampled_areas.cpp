@@ -9,18 +9,17 @@ namespace evolin {
 
 namespace generic {
 
-void resampleAreas(const ScoreRanking::Entry* entries, std::size_t count, unsigned shift,
-                   const FrameWeight* weights, const double* steps, ResampledAreas* areas) {
-  sumAreas<TwoSettings>(entries, count, shift, weights, steps, areas);
+void resampleAreas(const RankedRuns& ranked, const std::int32_t* weights, const double* steps,
+                   double* losses, double* misses) {
+  sumAreas(ranked, weights, steps, losses, misses);
 }
 
 }  // namespace generic
 
-void resampleAreas(const ScoreRanking::Entry* entries, std::size_t count, unsigned shift,
-                   const FrameWeight* weights, const double* steps, ResampledAreas* areas) {
+void resampleAreas(const RankedRuns& ranked, const std::int32_t* weights, const double* steps,
+                   double* losses, double* misses) {
   static const bool has_wide = cv::checkHardwareSupport(CV_CPU_AVX2);
-  (has_wide ? wide::resampleAreas : generic::resampleAreas)(entries, count, shift, weights, steps,
-                                                            areas);
+  (has_wide ? wide::resampleAreas : generic::resampleAreas)(ranked, weights, steps, losses, misses);
 }
 
 }  // namespace evolin

@@ -9,61 +9,47 @@ namespace evolin {
 
 namespace {
 
-struct TwoSettings {
-  using Double __attribute__((vector_size(16))) = double;
-  using Bits __attribute__((vector_size(16))) = long long;
-};
-struct FourSettings {
-  using Double __attribute__((vector_size(32))) = double;
-  using Bits __attribute__((vector_size(32))) = long long;
-};
-
-/// All bits of a setting's word where the setting's bit is set.
-struct HitMasks {
-  static constexpr std::size_t kPatterns = std::size_t{1} << kAreaSettings;
-
-  alignas(64) long long words[kPatterns][kAreaSettings];
-
-  constexpr HitMasks() : words() {
-    for (std::size_t pattern = 0; pattern < kPatterns; ++pattern) {
-      for (std::size_t setting = 0; setting < kAreaSettings; ++setting) {
-        words[pattern][setting] = ((pattern >> setting) & 1U) != 0 ? -1 : 0;
+inline void sumAreas(const RankedRuns& ranked, const std::int32_t* weights, const double* steps,
+                     double* __restrict losses, double* __restrict misses) {
+  for (std::size_t i = 0; i < ranked.settings * kAreaLanes; ++i) {
+    losses[i] = 0;
+    misses[i] = 0;
+  }
+  std::int32_t predictions[kAreaLanes] = {};
+  double step[kAreaLanes] = {};
+  std::uint32_t place = 0;
+  for (std::size_t r = 0; r < ranked.count; ++r) {
+    const RankedRun run = ranked.runs[r];
+    std::int32_t copies[kAreaLanes] = {};
+    for (; place < run.end; ++place) {
+      const std::int32_t* const weight = weights + ranked.frames[place] * kAreaLanes;
+      for (std::size_t lane = 0; lane < kAreaLanes; ++lane) {
+        copies[lane] += weight[lane];
+      }
+    }
+    double more[kAreaLanes];
+    double length[kAreaLanes];
+    for (std::size_t lane = 0; lane < kAreaLanes; ++lane) {
+      predictions[lane] += copies[lane];
+      more[lane] = copies[lane];
+      const double before = step[lane];
+      step[lane] = steps[predictions[lane]];
+      length[lane] = step[lane] - before;
+    }
+    for (std::size_t setting = 0; setting < ranked.settings; ++setting) {
+      double* __restrict const loss = losses + setting * kAreaLanes;
+      double* __restrict const miss = misses + setting * kAreaLanes;
+      if (((run.hits >> setting) & 1U) != 0) {
+        for (std::size_t lane = 0; lane < kAreaLanes; ++lane) {
+          loss[lane] += miss[lane] * length[lane];
+        }
+      } else {
+        for (std::size_t lane = 0; lane < kAreaLanes; ++lane) {
+          miss[lane] += more[lane];
+        }
       }
     }
   }
-};
-
-constexpr HitMasks kHitMasks;
-
-template <class Vectors>
-void sumAreas(const ScoreRanking::Entry* entries, std::size_t count, unsigned shift,
-              const FrameWeight* weights, const double* steps, ResampledAreas* areas) {
-  using Double = typename Vectors::Double;
-  using Bits = typename Vectors::Bits;
-  constexpr std::size_t kWidth = sizeof(Double) / sizeof(double);
-  constexpr std::size_t kVectors = kAreaSettings / kWidth;
-  Double losses[kVectors] = {};
-  Double misses[kVectors] = {};
-  const double* step = steps;
-  double before = *step;
-  for (std::size_t i = 0; i < count; ++i) {
-    const FrameWeight& frame = weights[entries[i].frame];
-    const long long* const mask =
-        kHitMasks.words[(entries[i].hits >> shift) & (HitMasks::kPatterns - 1)];
-    step += frame.copies;
-    const double length = *step - before;
-    before = *step;
-    const Bits weight = reinterpret_cast<Bits>(frame.weight - Double{});  // in every lane
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      Bits hit;
-      __builtin_memcpy(&hit, mask + v * kWidth, sizeof(hit));
-      const Bits all_misses = reinterpret_cast<Bits>(misses[v]);
-      losses[v] += reinterpret_cast<Double>(all_misses & hit) * length;
-      misses[v] += reinterpret_cast<Double>(weight & ~hit);
-    }
-  }
-  __builtin_memcpy(areas->losses, losses, sizeof(losses));
-  __builtin_memcpy(areas->misses, misses, sizeof(misses));
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 namespace evolin::wide {
 
-void resampleAreas(const ScoreRanking::Entry* entries, std::size_t count, unsigned shift,
-                   const FrameWeight* weights, const double* steps, ResampledAreas* areas) {
-  sumAreas<FourSettings>(entries, count, shift, weights, steps, areas);
+void resampleAreas(const RankedRuns& ranked, const std::int32_t* weights, const double* steps,
+                   double* losses, double* misses) {
+  sumAreas(ranked, weights, steps, losses, misses);
 }
 
 }  // namespace evolin::wide

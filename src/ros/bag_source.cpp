@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <list>
 #include <map>
 #include <utility>
 
@@ -48,8 +49,13 @@ class IndexedBags : public BagSource {
       const ros::Time from = begin_ + ros::Duration(window.start);
       const ros::Time to = window.duration ? begin_ + ros::Duration(end) : ros::TIME_MAX;
       current_.reset();
+      at_once_.clear();
       view_ = std::make_unique<rosbag::View>();
       addTo(view_.get(), topics, from, to);
+      ranks_.clear();
+      for (const rosbag::ConnectionInfo* connection : view_->getConnections()) {
+        ranks_.emplace(connection->topic, ranks_.size());
+      }
     });
   }
 
@@ -59,13 +65,14 @@ class IndexedBags : public BagSource {
       if (view_ == nullptr) {
         return;
       }
-      if (!current_) {
-        current_.emplace(view_->begin());
-      } else if (*current_ != view_->end()) {
-        ++*current_;
+      if (!at_once_.empty()) {
+        at_once_.pop_front();
       }
-      if (*current_ != view_->end()) {
-        message.emplace(**current_);
+      if (at_once_.empty()) {
+        collectAtOnce();
+      }
+      if (!at_once_.empty()) {
+        message.emplace(at_once_.front());
       }
     });
     return message;
@@ -94,6 +101,25 @@ class IndexedBags : public BagSource {
     begin_ = all.size() > 0 ? all.getBeginTime() : ros::TIME_MIN;
   }
 
+  /// The next messages of one time, by topic as the recorder came to know them. A view gives them
+  /// in any order, and rosbag reads a chunk again whenever it gets back to it: the image of one
+  /// frame and the annotation of the one before it mostly share a chunk.
+  void collectAtOnce() {
+    constexpr std::size_t kMostAtOnce = 64;
+    if (!current_) {
+      current_.emplace(view_->begin());
+    }
+    const rosbag::View::iterator end = view_->end();
+    while (*current_ != end && at_once_.size() < kMostAtOnce &&
+           (at_once_.empty() || (*current_)->getTime() == at_once_.front().getTime())) {
+      at_once_.push_back(**current_);
+      ++*current_;
+    }
+    at_once_.sort([this](const rosbag::MessageInstance& a, const rosbag::MessageInstance& b) {
+      return ranks_.at(a.getTopic()) < ranks_.at(b.getTopic());
+    });
+  }
+
   void addTo(rosbag::View* view, const std::vector<std::string>& topics, const ros::Time& from,
              const ros::Time& to) const {
     for (const auto& bag : bags_) {
@@ -117,7 +143,9 @@ class IndexedBags : public BagSource {
   std::vector<BagTopic> topics_;
   ros::Time begin_;
   std::unique_ptr<rosbag::View> view_;
+  std::map<std::string, std::size_t> ranks_;  ///< of the view's topics
   std::optional<rosbag::View::iterator> current_;
+  std::list<rosbag::MessageInstance> at_once_;  ///< the first was given out last
 };
 
 }  // namespace

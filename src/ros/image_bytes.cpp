@@ -24,6 +24,10 @@ bool fits(const ImageBytes& image, int type) {
 cv::Mat copyRows(const ImageBytes& image, int type) {
   cv::Mat copy(static_cast<int>(image.height), static_cast<int>(image.width), type);
   const std::size_t row_size = image.width * copy.elemSize();
+  if (image.step == row_size) {
+    std::memcpy(copy.data, image.data, image.size);
+    return copy;
+  }
   for (int row = 0; row < copy.rows; ++row) {
     std::memcpy(copy.ptr(row), image.data + static_cast<std::size_t>(image.step) * row, row_size);
   }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "test/evaluation/sample_frames.h"
@@ -24,6 +25,7 @@ using test::same;
 using test::shortSteps;
 using test::stampOf;
 using test::wall;
+using test::wallDepth;
 using test::wallWalkCamera;
 
 /// Everything that updates brought.
@@ -329,6 +331,38 @@ TEST(MotionEvaluation, NamesDistortionAndDepthThatHasLeft) {
   EXPECT_EQ(motion.counts().no_depth, 4U);
   ASSERT_EQ(collected.notes.size(), 2U) << "said once";
   EXPECT_NE(collected.notes[1].find("depth_buffer"), std::string::npos) << collected.notes[1];
+}
+
+/// Depth images that somebody holds besides the test.
+std::size_t countHeld(const std::vector<cv::Mat>& images) {
+  return static_cast<std::size_t>(std::count_if(
+      images.begin(), images.end(), [](const cv::Mat& image) { return image.u->refcount > 1; }));
+}
+
+TEST(MotionEvaluation, DepthStaysForLateGroundTruthAndLeavesWhereNothingLacks) {
+  for (const bool late : {false, true}) {
+    SCOPED_TRACE(late ? "ground truth comes last" : "ground truth comes with its frame");
+    MotionEvaluation motion(shortSteps());
+    Collected collected;
+    collected.take(motion.setCamera(wallWalkCamera()));
+    std::vector<cv::Mat> depths;
+    constexpr int kFrames = 25;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      depths.push_back(wallDepth().clone());
+      collected.take(motion.addDepth(stampOf(frame), DepthMap(depths.back())));
+      collected.take(motion.addPose(poseAt(frame)));
+      collected.take(motion.addLines(detected(stampOf(frame), linesAt(frame))));
+      if (!late) collected.take(motion.addGroundTruth(annotated(stampOf(frame), linesAt(frame))));
+    }
+    EXPECT_EQ(countHeld(depths), late ? kFrames : 10U)
+        << "8 before the settled one, and the newest";
+    for (const int frame : {0, 1}) {
+      if (late) collected.take(motion.addGroundTruth(annotated(stampOf(frame), linesAt(frame))));
+    }
+    collected.take(motion.addMatches(matchSet(stampOf(0), stampOf(1), "ground_truth", same(3))));
+    EXPECT_EQ(collected.tasks.size(), 1U);
+    EXPECT_TRUE(collected.notes.empty());
+  }
 }
 
 TEST(MotionEvaluation, LateLinesAreCountedAndNotScored) {

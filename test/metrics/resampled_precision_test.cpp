@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/core/utility.hpp>
+#include <optional>
 #include <vector>
 
 #include "evolin_ros/base/error.h"
@@ -38,6 +40,11 @@ Sequence randomSequence(int seed) {
   return sequence;
 }
 
+std::vector<std::optional<double>> precisionsOf(ResampledPrecision* resampled,
+                                                const std::vector<std::uint32_t>& weights) {
+  return resampled->averagePrecisions({weights}).at(0);
+}
+
 /// Copies of a frame are frames of their own, copies of a prediction follow each other.
 Sequence repeated(const Sequence& sequence, const std::vector<std::uint32_t>& weights) {
   Sequence all;
@@ -55,14 +62,24 @@ TEST(ResampledPrecision, EqualsThatOfTheRepeatedSequence) {
   for (const Protocol protocol : {Protocol::kEvolin, Protocol::kPaper}) {
     const Sequence sequence = randomSequence(1);
     ResampledPrecision resampled(sequence.ranking(protocol));
-    // More and more predictions, and a first prediction that does not occur.
-    for (const std::vector<std::uint32_t>& weights : std::vector<std::vector<std::uint32_t>>{
-             {1, 1, 1, 1, 1, 1, 1}, {2, 0, 1, 3, 0, 0, 1}, {0, 0, 0, 0, 0, 0, 40}}) {
-      const auto found = resampled.averagePrecisions(weights);
-      const auto expected = repeated(sequence, weights).ranking(protocol).averagePrecisions();
-      ASSERT_EQ(found.size(), kSettings);
+    // More and more predictions, a first prediction that does not occur, and more resamples than
+    // are worked on at a time.
+    std::vector<std::vector<std::uint32_t>> resamples = {
+        {1, 1, 1, 1, 1, 1, 1}, {2, 0, 1, 3, 0, 0, 1}, {0, 0, 0, 0, 0, 0, 40}};
+    test::RandomLines random(3);
+    while (resamples.size() < kAreaLanes + 10) {
+      resamples.emplace_back();
+      for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+        resamples.back().push_back(static_cast<std::uint32_t>(random.uniform(0, 4)));
+      }
+    }
+    const auto found = resampled.averagePrecisions(resamples);
+    ASSERT_EQ(found.size(), resamples.size());
+    for (std::size_t i = 0; i < resamples.size(); ++i) {
+      const auto expected = repeated(sequence, resamples[i]).ranking(protocol).averagePrecisions();
+      ASSERT_EQ(found[i].size(), kSettings);
       for (std::size_t setting = 0; setting < kSettings; ++setting) {
-        EXPECT_NEAR(*found[setting], *expected[setting], 1e-12) << setting;
+        EXPECT_NEAR(*found[i][setting], *expected[setting], 1e-12) << i << ", " << setting;
       }
     }
   }
@@ -73,20 +90,21 @@ TEST(ResampledPrecision, OfPerfectPredictions) {
   for (const Protocol protocol : {Protocol::kEvolin, Protocol::kPaper}) {
     ResampledPrecision resampled(ScoreRanking(protocol, 1, entries, {1, 1}));
     const bool anchored = protocol == Protocol::kPaper;
-    EXPECT_DOUBLE_EQ(*resampled.averagePrecisions({0, 1})[0], anchored ? 1 : 0);
-    EXPECT_DOUBLE_EQ(*resampled.averagePrecisions({1, 1})[0], anchored ? 1 : 0.5);
-    EXPECT_DOUBLE_EQ(*resampled.averagePrecisions({2, 2})[0], anchored ? 1 : 0.75);
+    EXPECT_DOUBLE_EQ(*precisionsOf(&resampled, {0, 1})[0], anchored ? 1 : 0);
+    EXPECT_DOUBLE_EQ(*precisionsOf(&resampled, {1, 1})[0], anchored ? 1 : 0.5);
+    EXPECT_DOUBLE_EQ(*precisionsOf(&resampled, {2, 2})[0], anchored ? 1 : 0.75);
   }
 }
 
 TEST(ResampledPrecision, IsEmptyWithoutPredictionsOrTruth) {
   const std::vector<ScoreRanking::Entry> entries = {{0, 1}, {2, 1}};
   ResampledPrecision resampled(ScoreRanking(Protocol::kEvolin, 1, entries, {0, 5, 1}));
-  EXPECT_FALSE(resampled.averagePrecisions({1, 0, 0})[0]) << "no truth";
-  EXPECT_FALSE(resampled.averagePrecisions({0, 1, 0})[0]) << "no prediction";
-  EXPECT_TRUE(resampled.averagePrecisions({1, 0, 1})[0]);
-  EXPECT_FALSE(resampled.averagePrecisions({0, 0, 0})[0]);
-  EXPECT_THROW(resampled.averagePrecisions({1, 2}), Error);
+  EXPECT_FALSE(precisionsOf(&resampled, {1, 0, 0})[0]) << "no truth";
+  EXPECT_FALSE(precisionsOf(&resampled, {0, 1, 0})[0]) << "no prediction";
+  EXPECT_TRUE(precisionsOf(&resampled, {1, 0, 1})[0]);
+  EXPECT_FALSE(precisionsOf(&resampled, {0, 0, 0})[0]);
+  EXPECT_THROW(precisionsOf(&resampled, {1, 2}), Error);
+  EXPECT_THROW(precisionsOf(&resampled, {1U << 31U, 1, 1}), Error) << "2^31 predictions";
 }
 
 TEST(ResampledAreas, AreTheSameToTheLastBitOnEveryProcessor) {
@@ -94,28 +112,33 @@ TEST(ResampledAreas, AreTheSameToTheLastBitOnEveryProcessor) {
     GTEST_SKIP() << "this processor has no AVX2";
   }
   const Sequence sequence = randomSequence(2);
-  std::vector<FrameWeight> weights;
-  for (std::size_t frame = 0; frame < kFrames; ++frame) {
-    weights.push_back({static_cast<double>(frame % 3), frame % 3});
+  std::vector<std::uint32_t> frames;
+  std::vector<RankedRun> runs;
+  for (const ScoreRanking::Entry& entry : sequence.entries) {
+    frames.push_back(entry.frame);
+    if (frames.size() % 3 == 0) {
+      runs.push_back({entry.hits, static_cast<std::uint32_t>(frames.size())});
+    }
+  }
+  std::vector<std::int32_t> weights;
+  for (std::size_t i = 0; i < kFrames * kAreaLanes; ++i) {
+    weights.push_back(static_cast<std::int32_t>(i * i % 11 % 4));
   }
   std::vector<double> steps = {0, 0};
-  while (steps.size() <= 2 * sequence.entries.size()) {
+  while (steps.size() <= 3 * sequence.entries.size()) {
     const auto n = static_cast<double>(steps.size());
     steps.push_back(steps.back() + (1 / (n - 1) + 1 / n) / 2);
   }
-  for (const unsigned shift : {0U, 8U}) {
-    ResampledAreas of_generic;
-    ResampledAreas of_wide;
-    generic::resampleAreas(sequence.entries.data(), sequence.entries.size(), shift, weights.data(),
-                           steps.data(), &of_generic);
-    wide::resampleAreas(sequence.entries.data(), sequence.entries.size(), shift, weights.data(),
-                        steps.data(), &of_wide);
-    for (std::size_t lane = 0; lane < kAreaSettings; ++lane) {
-      EXPECT_EQ(of_generic.losses[lane], of_wide.losses[lane]);
-      EXPECT_EQ(of_generic.misses[lane], of_wide.misses[lane]);
-    }
-    EXPECT_GT(of_generic.losses[0], 1);
+  const RankedRuns ranked{frames.data(), runs.data(), runs.size(), kSettings};
+  std::vector<double> sums[4];
+  for (std::vector<double>& of_one : sums) {
+    of_one.assign(kSettings * kAreaLanes, -1);
   }
+  generic::resampleAreas(ranked, weights.data(), steps.data(), sums[0].data(), sums[1].data());
+  wide::resampleAreas(ranked, weights.data(), steps.data(), sums[2].data(), sums[3].data());
+  EXPECT_EQ(sums[0], sums[2]);
+  EXPECT_EQ(sums[1], sums[3]);
+  EXPECT_GT(*std::min_element(sums[0].begin(), sums[0].end()), 1);
 }
 
 }  // namespace

@@ -114,6 +114,20 @@ TEST_F(BagPartsTest, AWrittenBagComesBackWhole) {
   }
 }
 
+TEST_F(BagPartsTest, PartsOfOneTimeComeInTheOrderOfTheirTopics) {
+  const auto reader = openBagParts({write("a.bag")}, {}, {true, true});
+  std::vector<std::size_t> kinds;  // of StreamPart's alternatives
+  while (const std::optional<StreamPart> part = reader->next()) kinds.push_back(part->index());
+  const auto kindOf = [](const StreamPart& part) { return part.index(); };
+  const std::vector<std::size_t> of_a_frame = {
+      kindOf(ImagePart()), kindOf(Camera()), kindOf(DepthPart{0, DepthMap(frames_[0].frame.depth)}),
+      kindOf(StampedPose()), kindOf(LineSet())};
+  ASSERT_EQ(kinds.size(), 12 * of_a_frame.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    EXPECT_EQ(kinds[i], of_a_frame[i % of_a_frame.size()]) << i;
+  }
+}
+
 TEST_F(BagPartsTest, OnlyWhatIsWantedIsRead) {
   const Parts parts = readAll({write("a.bag")}, {}, {false, false});
   EXPECT_EQ(parts.images.size(), 12U);

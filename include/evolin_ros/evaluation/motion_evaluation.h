@@ -156,6 +156,7 @@ class MotionEvaluation {
   void resolveAll(bool complete, MotionUpdate* update);
   State lift(Stamp stamp, bool complete, bool detected, Lifting* lifting, Node* node,
              MotionUpdate* update);
+  bool mayBeLackedAt(Stamp depth_stamp) const;
   void advance(bool complete, MotionUpdate* update);
   bool isSettled(Nodes::const_iterator node) const;
   void settle(Stamp stamp, Node* node, MotionUpdate* update);

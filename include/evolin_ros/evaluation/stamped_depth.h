@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -29,8 +30,9 @@ class StampedDepth {
   /// the next add(). Images come in order of time; with `complete` none will come any more.
   Lookup find(Stamp stamp, bool complete, const DepthMap** depth);
 
-  /// Forgets images before `settled`, but for a few that late parts may want.
-  void trim(Stamp settled);
+  /// Forgets images before `settled`, but for a few that late parts may want, and for some more as
+  /// long as `is_wanted` holds for the stamp of the oldest.
+  void trim(Stamp settled, const std::function<bool(Stamp)>& is_wanted);
 
   /// Whether an image of that stamp may have been here and left.
   bool hasForgotten(Stamp stamp) const { return forgotten_ && stamp <= *forgotten_ + tolerance_; }

@@ -28,6 +28,10 @@ struct ConfidenceInterval {
 using WeightedFigures =
     std::function<std::vector<double>(const std::vector<std::uint32_t>& weights)>;
 
+/// The same of many resamples at a time: a row of figures for each row of weights.
+using FiguresOfResamples = std::function<std::vector<std::vector<double>>(
+    const std::vector<std::vector<std::uint32_t>>& resamples)>;
+
 /// One interval a figure. A resample is a row of blocks with uniform starts, wrapping around the
 /// end of the sequence and cut to its length, so that all frames are equally likely; percentiles
 /// are linear between neighbours; resamples that leave a figure undefined do not count for it. The
@@ -35,5 +39,10 @@ using WeightedFigures =
 /// than one resample, a block length below 0 or above `frames`, or a level outside (0, 1).
 std::vector<ConfidenceInterval> blockBootstrap(std::size_t frames, const BootstrapOptions& options,
                                                const WeightedFigures& figures);
+
+/// The same for figures that are found quicker for many resamples at a time.
+std::vector<ConfidenceInterval> blockBootstrapOfMany(std::size_t frames,
+                                                     const BootstrapOptions& options,
+                                                     const FiguresOfResamples& figures);
 
 }  // namespace evolin

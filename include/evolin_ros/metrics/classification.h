@@ -17,11 +17,18 @@ struct Classification {
   double recall() const;
   double fScore() const;
 
-  Classification& operator+=(const Classification& other);
+  Classification& operator+=(const Classification& other) {
+    true_positives += other.true_positives;
+    predicted += other.predicted;
+    ground_truth += other.ground_truth;
+    return *this;
+  }
 };
 
 /// The counts of `times` copies.
-Classification operator*(const Classification& counts, std::uint64_t times);
+inline Classification operator*(const Classification& counts, std::uint64_t times) {
+  return {counts.true_positives * times, counts.predicted * times, counts.ground_truth * times};
+}
 
 /// Each of `counts` as often as its weight says; as many weights as counts.
 Classification weightedSum(const std::vector<Classification>& counts,

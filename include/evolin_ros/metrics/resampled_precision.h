@@ -2,6 +2,7 @@
 // times.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -15,12 +16,24 @@ class ResampledPrecision {
  public:
   explicit ResampledPrecision(const ScoreRanking& ranking);
 
-  /// ScoreRanking::averagePrecisions(), but for the last bits, of the sequence in which frame f
-  /// occurs weights[f] times, copies of a prediction following each other. Throws Error when the
-  /// number of weights is not that of the frames.
-  std::vector<std::optional<double>> averagePrecisions(const std::vector<std::uint32_t>& weights);
+  /// For each resample, which is a row of weights: ScoreRanking::averagePrecisions(), but for the
+  /// last bits, of the sequence in which frame f occurs weights[f] times, copies of a prediction
+  /// following each other. Many resamples at a time are quicker. Throws Error when the number of
+  /// weights is not that of the frames, or for 2^31 weighted predictions.
+  std::vector<std::vector<std::optional<double>>> averagePrecisions(
+      const std::vector<std::vector<std::uint32_t>>& resamples);
 
  private:
+  /// Of a resample.
+  struct Size {
+    std::uint64_t lines = 0;
+    std::uint64_t predictions = 0;
+  };
+
+  Size sizeOf(const std::vector<std::uint32_t>& weights) const;
+  /// From the sums of one resample's lane.
+  std::vector<std::optional<double>> precisionsOf(const std::vector<std::uint32_t>& weights,
+                                                  const double* losses, const double* misses) const;
   void extendSteps(std::size_t predictions);
 
   Protocol protocol_;
