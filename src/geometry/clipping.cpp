@@ -24,6 +24,10 @@ bool narrow(double start, double delta, double low, double high, double* enter, 
   return *enter <= *leave;
 }
 
+bool isInside(double x, double y, const Rectangle& rectangle) {
+  return rectangle.left <= x && x <= rectangle.right && rectangle.top <= y && y <= rectangle.bottom;
+}
+
 }  // namespace
 
 LineSegment clampToRectangle(const LineSegment& segment, const Rectangle& rectangle) {
@@ -38,6 +42,9 @@ LineSegment clampToRectangle(const LineSegment& segment, const Rectangle& rectan
 std::optional<LineSegment> clipToRectangle(const LineSegment& segment, const Rectangle& rectangle) {
   if (!segment.isFinite()) {
     return std::nullopt;
+  }
+  if (isInside(segment.x1, segment.y1, rectangle) && isInside(segment.x2, segment.y2, rectangle)) {
+    return segment;
   }
   // Where differences of coordinates could overflow, all is computed at a sixteenth of the size.
   constexpr double kHuge = 1e300;
