@@ -370,23 +370,24 @@ void MotionEvaluation::scorePairs(Stamp stamp, const std::shared_ptr<const Spati
     record.first_stamp = first->stamp;
     record.stamp = stamp;
     record.frame_step = step;
+    ProjectedPair pair(*first->frame, *frame);
     try {
-      record.pair = repeatability_.addPair(step, *first->frame, *frame);
+      record.pair = repeatability_.addPair(step, &pair);
     } catch (const Error& error) {
       update->notes.emplace_back(error.what());
       continue;
     }
     if (by_score_ && isScored(*first->frame) && isScored(*frame)) {
-      record.by_score = by_score_->addPair(step, *first->frame, *frame);
+      record.by_score = by_score_->addPair(step, &pair);
     } else if (by_score_) {
       ++counts_.unscored_pairs;
     }
     // The relatives are of one step, or their pairs would count several times.
     if (step == steps.front()) {
-      const OneToOneRepeatability one_to_one = one_to_one_.addPair(*first->frame, *frame);
+      const OneToOneRepeatability one_to_one = one_to_one_.addPair(pair);
       record.one_to_one_by_count = one_to_one.byCount();
       record.one_to_one_by_length = one_to_one.byLength();
-      record.best = best_localization_.addPair(*first->frame, *frame);
+      record.best = best_localization_.addPair(&pair);
     }
     update->repeatability.push_back(std::move(record));
   }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <vector>
 
 #include "evolin_ros/base/error.h"
-#include "nearest_line.h"
 #include "scaling.h"
 
 namespace evolin {
@@ -24,57 +24,28 @@ void checkCount(const BestLocalizationOptions& options) {
   }
 }
 
-/// The lines of one frame, and projections of the other's that have not met any of them yet.
-class Direction {
- public:
-  Direction(const SpatialFrame& from, const SpatialFrame& to, LineDistance distance)
-      : distance_(distance), gate_(to.protocol == Protocol::kEvolin), search_(scaledLines(to)) {
-    for (const LineProjection& projection : projectLines(from, to)) {
-      queries_.push_back(scaled(projection.segment, to.size));
-    }
-  }
-
-  /// Distances up to `reach` of projections that no earlier call found.
-  void collect(double reach, std::vector<double>* distances) {
-    const auto found = [&](const LineSegment& query) {
-      const NearestLine nearest = search_.find(distance_, query, reach, gate_);
-      if (std::isfinite(nearest.distance)) {
-        distances->push_back(nearest.distance);
-        return true;
-      }
-      return false;
-    };
-    queries_.erase(std::remove_if(queries_.begin(), queries_.end(), found), queries_.end());
-  }
-
- private:
-  static LineSegments scaledLines(const SpatialFrame& frame) {
-    LineSegments lines;
-    for (const SpatialLine& line : frame.lines) {
-      if (line.in_image) {
-        lines.push_back(scaled(line.segment, frame.size));
-      }
-    }
-    return lines;
-  }
-
-  LineDistance distance_;
-  bool gate_;
-  NearestLineSearch search_;
-  LineSegments queries_;
-};
+void appendFinite(const std::vector<double>& values, std::vector<double>* result) {
+  std::copy_if(values.begin(), values.end(), std::back_inserter(*result),
+               [](double value) { return std::isfinite(value); });
+}
 
 }  // namespace
 
 PairBestLocalization measureBestLocalization(const SpatialFrame& first, const SpatialFrame& second,
                                              const BestLocalizationOptions& options) {
   checkCount(options);
-  Direction forward(first, second, options.distance);
-  Direction backward(second, first, options.distance);
+  ProjectedPair pair(first, second);
+  return measureBestLocalization(options, &pair);
+}
+
+PairBestLocalization measureBestLocalization(const BestLocalizationOptions& options,
+                                             ProjectedPair* pair) {
+  checkCount(options);
   std::vector<double> distances;
   for (const double reach : kReaches) {
-    forward.collect(reach, &distances);
-    backward.collect(reach, &distances);
+    distances.clear();
+    appendFinite(pair->forward.nearestDistances(options.distance, reach), &distances);
+    appendFinite(pair->backward.nearestDistances(options.distance, reach), &distances);
     if (distances.size() >= options.count) {
       break;  // what is farther away is not among the best
     }
@@ -96,12 +67,17 @@ BestLocalization::BestLocalization(BestLocalizationOptions options) : options_(o
 
 PairBestLocalization BestLocalization::addPair(const SpatialFrame& first,
                                                const SpatialFrame& second) {
-  const PairBestLocalization pair = measureBestLocalization(first, second, options_);
+  ProjectedPair pair(first, second);
+  return addPair(&pair);
+}
+
+PairBestLocalization BestLocalization::addPair(ProjectedPair* pair) {
+  const PairBestLocalization result = measureBestLocalization(options_, pair);
   ++pairs_;
-  short_pairs_ += pair.used < options_.count ? 1 : 0;
-  empty_pairs_ += pair.used == 0 ? 1 : 0;
-  sum_.add(pair.mean_distance);
-  return pair;
+  short_pairs_ += result.used < options_.count ? 1 : 0;
+  empty_pairs_ += result.used == 0 ? 1 : 0;
+  sum_.add(result.mean_distance);
+  return result;
 }
 
 std::optional<double> BestLocalization::error() const {

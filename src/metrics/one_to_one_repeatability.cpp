@@ -10,7 +10,7 @@
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
 #include "evolin_ros/geometry/distance.h"
-#include "small_bounds.h"
+#include "near_lines.h"
 
 namespace evolin {
 
@@ -40,68 +40,21 @@ bool isWithinAngle(const LineSegment& a, const LineSegment& b, double tangent) {
   return !(std::abs(ax * by - ay * bx) > tangent * std::abs(ax * bx + ay * by));
 }
 
-double largestCoordinate(const LineSegment& line) {
-  return std::max({std::abs(line.x1), std::abs(line.y1), std::abs(line.x2), std::abs(line.y2)});
-}
+/// The lines of a frame in its image.
+struct LinesInImage {
+  LineSegments lines;
+  std::vector<std::uint32_t> rows;  ///< of each in the frame
 
-/// Rules out most of a frame's lines in a flat loop over single precision.
-class NearLines {
- public:
-  explicit NearLines(const SpatialFrame& frame) {
+  explicit LinesInImage(const SpatialFrame& frame) {
+    lines.reserve(frame.lines.size());
+    rows.reserve(frame.lines.size());
     for (std::size_t row = 0; row < frame.lines.size(); ++row) {
-      if (!frame.lines[row].in_image) {
-        continue;
+      if (frame.lines[row].in_image) {
+        lines.push_back(frame.lines[row].segment);
+        rows.push_back(static_cast<std::uint32_t>(row));
       }
-      const LineSegment& line = frame.lines[row].segment;
-      const double dx = line.x2 - line.x1;
-      const double dy = line.y2 - line.y1;
-      const double length = std::sqrt(dx * dx + dy * dy);
-      const double normal_x = -dy / length;
-      const double normal_y = dx / length;
-      rows_.push_back(static_cast<std::uint32_t>(row));
-      normal_x_.push_back(static_cast<float>(normal_x));
-      normal_y_.push_back(static_cast<float>(normal_y));
-      offset_.push_back(static_cast<float>(-(normal_x * line.x1 + normal_y * line.y1)));
-      largest_ = std::max(largest_, largestCoordinate(line));
     }
-    bounds_.resize(rows_.size());
-    near_.reserve(rows_.size());
   }
-
-  /// By rising row, all lines that are within `distance` of the query, and some others. Valid until
-  /// the next call.
-  const std::vector<std::uint32_t>& around(const LineSegment& query, double distance) {
-    // The distance is at least half of what the query's endpoints are off the line.
-    const std::size_t count = rows_.size();
-    const auto x1 = static_cast<float>(query.x1);
-    const auto y1 = static_cast<float>(query.y1);
-    const auto x2 = static_cast<float>(query.x2);
-    const auto y2 = static_cast<float>(query.y2);
-    const float* const xs = normal_x_.data();
-    const float* const ys = normal_y_.data();
-    const float* const offsets = offset_.data();
-    float* const bounds = bounds_.data();
-    for (std::size_t i = 0; i < count; ++i) {
-      bounds[i] = std::abs(xs[i] * x1 + ys[i] * y1 + offsets[i]) +
-                  std::abs(xs[i] * x2 + ys[i] * y2 + offsets[i]);
-    }
-    // Single precision keeps 24 bits.
-    const double error = 1e-5 * (1 + std::max(largest_, largestCoordinate(query)));
-    const auto limit = static_cast<float>((2 * distance + 2 * error) * (1 + 1e-5));
-    near_.resize(count);
-    near_.resize(collectWithin(bounds, 0, count, limit, near_.data()));
-    for (std::uint32_t& place : near_) {
-      place = rows_[place];
-    }
-    return near_;
-  }
-
- private:
-  std::vector<std::uint32_t> rows_;
-  std::vector<float> normal_x_, normal_y_, offset_;
-  std::vector<float> bounds_;
-  std::vector<std::uint32_t> near_;
-  double largest_ = 0;
 };
 
 }  // namespace
@@ -121,10 +74,16 @@ OneToOneRepeatability::OneToOneRepeatability(OneToOneOptions options) : options_
   }
 }
 
-void OneToOneRepeatability::addDirection(const SpatialFrame& from, const SpatialFrame& to) {
-  const std::vector<LineProjection> projections = projectLines(from, to);
+void OneToOneRepeatability::addDirection(const ProjectedLines& projected) {
+  const std::vector<LineProjection>& projections = projected.projections();
+  const SpatialFrame& to = projected.to();
   const double tangent = largestTangent(options_.max_angle);
-  NearLines lines(to);
+  const LinesInImage inside(to);
+  NearLines lines(inside.lines);
+  NearQuestion question;
+  question.distance = LineDistance::kOrthogonal;
+  question.reach = options_.max_distance;
+  question.min_overlap = options_.min_overlap;
   std::vector<double> lengths;  // of the projections
   lengths.reserve(projections.size());
   std::vector<Candidate> candidates;
@@ -133,8 +92,8 @@ void OneToOneRepeatability::addDirection(const SpatialFrame& from, const Spatial
     ++visible_;
     lengths.push_back(projection.length());
     visible_length_.add(lengths.back());
-    for (const std::uint32_t row : lines.around(projection, options_.max_distance)) {
-      const LineSegment& line = to.lines[row].segment;
+    for (const std::uint32_t place : lines.find(projection, question)) {
+      const LineSegment& line = inside.lines[place];
       if (!isWithinAngle(projection, line, tangent)) {
         continue;
       }
@@ -143,7 +102,7 @@ void OneToOneRepeatability::addDirection(const SpatialFrame& from, const Spatial
       if (distance <= options_.max_distance &&
           (coveredShare(projection, line) + coveredShare(line, projection)) / 2 >=
               options_.min_overlap) {
-        candidates.push_back({distance, index, row});
+        candidates.push_back({distance, index, inside.rows[place]});
       }
     }
   }
@@ -167,10 +126,14 @@ void OneToOneRepeatability::addDirection(const SpatialFrame& from, const Spatial
 
 OneToOneRepeatability OneToOneRepeatability::addPair(const SpatialFrame& first,
                                                      const SpatialFrame& second) {
+  return addPair(ProjectedPair(first, second));
+}
+
+OneToOneRepeatability OneToOneRepeatability::addPair(const ProjectedPair& projected) {
   OneToOneRepeatability pair(options_);
   pair.pairs_ = 1;
-  pair.addDirection(first, second);
-  pair.addDirection(second, first);
+  pair.addDirection(projected.forward);
+  pair.addDirection(projected.backward);
   merge(pair);
   return pair;
 }

@@ -44,38 +44,6 @@ void checkOptions(const RepeatabilityOptions& options) {
   }
 }
 
-/// A frame's lines in the scaled frame. Rows of lines outside the image stay out of `lines` but
-/// count.
-struct ScaledLines {
-  LineSegments lines;
-  std::vector<double> all_scores;
-};
-
-ScaledLines scaleLines(const SpatialFrame& frame) {
-  ScaledLines result;
-  result.lines.reserve(frame.lines.size());
-  result.all_scores.reserve(frame.lines.size());
-  for (const SpatialLine& line : frame.lines) {
-    result.all_scores.push_back(line.segment.score);
-    if (line.in_image) {
-      result.lines.push_back(scaled(line.segment, frame.size));
-    }
-  }
-  return result;
-}
-
-/// Projections of `from`'s lines into `to`, scaled, with the scores of their lines.
-LineSegments scaleProjections(const SpatialFrame& from, const SpatialFrame& to,
-                              double score_threshold) {
-  LineSegments result;
-  for (const LineProjection& projection : projectLines(from, to, score_threshold)) {
-    LineSegment line = scaled(projection.segment, to.size);
-    line.score = from.lines[projection.row].segment.score;
-    result.push_back(line);
-  }
-  return result;
-}
-
 void requireScores(const SpatialFrame& frame) {
   for (std::size_t row = 0; row < frame.lines.size(); ++row) {
     if (!frame.lines[row].segment.hasScore()) {
@@ -85,9 +53,10 @@ void requireScores(const SpatialFrame& frame) {
   }
 }
 
-std::uint32_t countAbove(const std::vector<double>& scores, double threshold) {
-  return static_cast<std::uint32_t>(std::count_if(
-      scores.begin(), scores.end(), [threshold](double score) { return score > threshold; }));
+std::size_t countAbove(const SpatialFrame& frame, double threshold) {
+  return static_cast<std::size_t>(std::count_if(
+      frame.lines.begin(), frame.lines.end(),
+      [threshold](const SpatialLine& line) { return line.segment.score > threshold; }));
 }
 
 LineSegments keepAbove(const LineSegments& lines, double threshold) {
@@ -98,32 +67,54 @@ LineSegments keepAbove(const LineSegments& lines, double threshold) {
   return kept;
 }
 
+double longestReach(const RepeatabilityOptions& options) {
+  return *std::max_element(options.distance_thresholds.begin(), options.distance_thresholds.end());
+}
+
+/// One sum a threshold, of the distances to the nearest lines.
+void appendRedetections(const std::vector<double>& nearest, const RepeatabilityOptions& options,
+                        std::vector<Redetections>* result) {
+  for (const double threshold : options.distance_thresholds) {
+    Redetections found;
+    ExactSum sum;  // of distances in any order of rows
+    for (const double value : nearest) {
+      if (options.protocol == Protocol::kEvolin ? value < threshold : value <= threshold) {
+        ++found.count;
+        sum.add(value);
+      }
+    }
+    found.distance_sum = sum.value();
+    result->push_back(found);
+  }
+}
+
 /// One sum a setting of a step, distance slowest.
-std::vector<Redetections> findRedetections(const LineSegments& projections,
-                                           const LineSegments& lines,
-                                           const RepeatabilityOptions& options) {
-  const std::vector<double>& thresholds = options.distance_thresholds;
-  const double reach = *std::max_element(thresholds.begin(), thresholds.end());
-  const bool evolin = options.protocol == Protocol::kEvolin;
-  NearestLineSearch search(lines);
+std::vector<Redetections> findRedetections(const RepeatabilityOptions& options,
+                                           ProjectedLines* projected) {
+  std::vector<Redetections> result;
+  for (const LineDistance distance : options.distances) {
+    appendRedetections(projected->nearestDistances(distance, longestReach(options)), options,
+                       &result);
+  }
+  return result;
+}
+
+/// The same of the lines with score > threshold alone.
+std::vector<Redetections> findRedetectionsAbove(double threshold,
+                                                const RepeatabilityOptions& options,
+                                                ProjectedLines* projected) {
+  const LineSegments projections = keepAbove(projected->scaledProjections(), threshold);
+  NearestLineSearch search(keepAbove(scaledLines(projected->to()), threshold));
+  const double reach = longestReach(options);
+  const bool gate = options.protocol == Protocol::kEvolin;
   std::vector<Redetections> result;
   std::vector<double> nearest(projections.size());
   for (const LineDistance distance : options.distances) {
-    for (std::size_t index = 0; index < projections.size(); ++index) {
-      nearest[index] = search.find(distance, projections[index], reach, evolin).distance;
-    }
-    for (const double threshold : thresholds) {
-      Redetections found;
-      ExactSum sum;  // of distances in any order of rows
-      for (const double value : nearest) {
-        if (evolin ? value < threshold : value <= threshold) {
-          ++found.count;
-          sum.add(value);
-        }
-      }
-      found.distance_sum = sum.value();
-      result.push_back(found);
-    }
+    std::transform(projections.begin(), projections.end(), nearest.begin(),
+                   [&](const LineSegment& projection) {
+                     return search.find(distance, projection, reach, gate).distance;
+                   });
+    appendRedetections(nearest, options, &result);
   }
   return result;
 }
@@ -234,25 +225,31 @@ std::vector<std::size_t> RepeatabilityMetrics::settingsOf(int frame_step) const 
   return result;
 }
 
-std::vector<PairRepeatability> RepeatabilityMetrics::measure(const SpatialFrame& first,
-                                                             const SpatialFrame& second) const {
+void RepeatabilityMetrics::checkFrames(const SpatialFrame& first,
+                                       const SpatialFrame& second) const {
   if (first.protocol != options_.protocol) {
     throw Error("frame lifted under protocol " + toString(first.protocol) + ": expected " +
                 toString(options_.protocol));
   }
-  const bool filtered = !options_.score_thresholds.empty();
-  if (filtered) {
+  if (!options_.score_thresholds.empty()) {
     requireScores(first);
     requireScores(second);
   }
-  const double lowest = filtered ? *std::min_element(options_.score_thresholds.begin(),
-                                                     options_.score_thresholds.end())
-                                 : kNoScore;
-  const LineSegments forward = scaleProjections(first, second, lowest);
-  const LineSegments backward = scaleProjections(second, first, lowest);
-  const ScaledLines first_lines = scaleLines(first);
-  const ScaledLines second_lines = scaleLines(second);
+}
 
+std::vector<PairRepeatability> RepeatabilityMetrics::measure(const SpatialFrame& first,
+                                                             const SpatialFrame& second) const {
+  checkFrames(first, second);
+  const std::vector<double>& scores = options_.score_thresholds;
+  ProjectedPair pair(first, second,
+                     scores.empty() ? kNoScore : *std::min_element(scores.begin(), scores.end()));
+  return measure(&pair);
+}
+
+std::vector<PairRepeatability> RepeatabilityMetrics::measure(ProjectedPair* pair) const {
+  const SpatialFrame& first = pair->forward.from();
+  const SpatialFrame& second = pair->forward.to();
+  checkFrames(first, second);
   std::vector<PairRepeatability> result;
   const auto append = [&result](std::size_t lines, const std::vector<Redetections>& there,
                                 const std::vector<Redetections>& back) {
@@ -260,18 +257,14 @@ std::vector<PairRepeatability> RepeatabilityMetrics::measure(const SpatialFrame&
       result.push_back({static_cast<std::uint32_t>(lines), there[index], back[index]});
     }
   };
-  if (!filtered) {
-    append(first.lines.size() + second.lines.size(),
-           findRedetections(forward, second_lines.lines, options_),
-           findRedetections(backward, first_lines.lines, options_));
+  if (options_.score_thresholds.empty()) {
+    append(first.lines.size() + second.lines.size(), findRedetections(options_, &pair->forward),
+           findRedetections(options_, &pair->backward));
   }
   for (const double threshold : options_.score_thresholds) {
-    append(countAbove(first_lines.all_scores, threshold) +
-               std::size_t{countAbove(second_lines.all_scores, threshold)},
-           findRedetections(keepAbove(forward, threshold), keepAbove(second_lines.lines, threshold),
-                            options_),
-           findRedetections(keepAbove(backward, threshold), keepAbove(first_lines.lines, threshold),
-                            options_));
+    append(countAbove(first, threshold) + countAbove(second, threshold),
+           findRedetectionsAbove(threshold, options_, &pair->forward),
+           findRedetectionsAbove(threshold, options_, &pair->backward));
   }
   return result;
 }
@@ -295,6 +288,13 @@ std::vector<PairRepeatability> RepeatabilityMetrics::addPair(int frame_step,
   std::vector<PairRepeatability> pair = measure(first, second);
   add(frame_step, pair);
   return pair;
+}
+
+std::vector<PairRepeatability> RepeatabilityMetrics::addPair(int frame_step, ProjectedPair* pair) {
+  stepIndex(frame_step);
+  std::vector<PairRepeatability> results = measure(pair);
+  add(frame_step, results);
+  return results;
 }
 
 std::size_t RepeatabilityMetrics::pairs(int frame_step) const {

@@ -14,6 +14,17 @@ LineSegment scaled(const LineSegment& line, ImageSize size) {
   return result;
 }
 
+LineSegments scaledLines(const SpatialFrame& frame) {
+  LineSegments lines;
+  lines.reserve(frame.lines.size());
+  for (const SpatialLine& line : frame.lines) {
+    if (line.in_image) {
+      lines.push_back(scaled(line.segment, frame.size));
+    }
+  }
+  return lines;
+}
+
 std::string coordinates(const LineSegment& line) {
   return formatDouble(line.x1) + "," + formatDouble(line.y1) + "," + formatDouble(line.x2) + "," +
          formatDouble(line.y2);

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "test/metrics/vectorized_support.h"
-#include "test/support/random_lines.h"
+#include "test/metrics/mixed_lines.h"
 
 namespace evolin {
 namespace {
@@ -33,41 +32,14 @@ NearestLine exhaustive(LineDistance distance, const LineSegment& query, const Li
   return nearest;
 }
 
-/// Short and long lines, points, copies, and lines with one midpoint.
-LineSegments mixedLines(std::size_t count, test::RandomLines* random) {
-  LineSegments lines = random->anywhere(count, 160, 160);
-  for (std::size_t row = 0; row < count; ++row) {
-    LineSegment& line = lines[row];
-    switch (row % 7) {
-      case 0:  // anywhere
-        break;
-      case 1:
-        line.x2 = line.x1;
-        line.y2 = line.y1;
-        break;
-      case 2:
-        line = lines[random->index(row)];
-        break;
-      case 3:
-        line.x2 = 128 - line.x1;
-        line.y2 = 128 - line.y1;
-        break;
-      default:
-        line.x2 = line.x1 + random->uniform(-20, 20);
-        line.y2 = line.y1 + random->uniform(-20, 20);
-    }
-  }
-  return lines;
-}
-
 class NearestLineSearchTest
     : public ::testing::TestWithParam<std::tuple<std::size_t, LineDistance, bool>> {};
 
 TEST_P(NearestLineSearchTest, AnswersAsAnExhaustiveSearchDoes) {
   const auto [count, distance, gate] = GetParam();
   test::RandomLines random(count + 1);
-  const LineSegments lines = mixedLines(count, &random);
-  LineSegments queries = mixedLines(200, &random);
+  const LineSegments lines = test::mixedLines(count, &random);
+  LineSegments queries = test::mixedLines(200, &random);
   queries.insert(queries.end(), lines.begin(),
                  lines.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(count, 100)));
   NearestLineSearch search(lines);
@@ -88,11 +60,11 @@ TEST_P(NearestLineSearchTest, AnswersAsAnExhaustiveSearchDoes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(SizesDistancesGates, NearestLineSearchTest,
-                         ::testing::Combine(::testing::Values<std::size_t>(0, 1, 2, 80, 300, 700),
-                                            ::testing::Values(LineDistance::kOrthogonal,
-                                                              LineDistance::kStructural),
-                                            ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(
+    SizesDistancesGates, NearestLineSearchTest,
+    ::testing::Combine(::testing::Values<std::size_t>(0, 1, 2, 8, 9, 80, 300, 700),
+                       ::testing::Values(LineDistance::kOrthogonal, LineDistance::kStructural),
+                       ::testing::Bool()));
 
 TEST(NearestLineSearch, TiesGoToTheLowestRow) {
   // Five rows away on either side, whatever the order of their midpoints.

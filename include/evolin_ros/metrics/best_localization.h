@@ -8,6 +8,7 @@
 
 #include "evolin_ros/geometry/distance.h"
 #include "evolin_ros/metrics/exact_sum.h"
+#include "evolin_ros/metrics/projected_pair.h"
 #include "evolin_ros/metrics/spatial_lines.h"
 
 namespace evolin {
@@ -29,6 +30,8 @@ struct PairBestLocalization {
 /// of the orthogonal distance follows their protocol.
 PairBestLocalization measureBestLocalization(const SpatialFrame& first, const SpatialFrame& second,
                                              const BestLocalizationOptions& options);
+PairBestLocalization measureBestLocalization(const BestLocalizationOptions& options,
+                                             ProjectedPair* pair);
 
 /// An accumulator over pairs of frames, the same to the last bit in any order.
 class BestLocalization {
@@ -37,6 +40,8 @@ class BestLocalization {
   explicit BestLocalization(BestLocalizationOptions options = {});
 
   PairBestLocalization addPair(const SpatialFrame& first, const SpatialFrame& second);
+  /// Of frames all of whose lines have been projected.
+  PairBestLocalization addPair(ProjectedPair* pair);
 
   std::size_t pairs() const { return pairs_; }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "evolin_ros/metrics/exact_sum.h"
+#include "evolin_ros/metrics/projected_pair.h"
 #include "evolin_ros/metrics/spatial_lines.h"
 
 namespace evolin {
@@ -28,6 +29,8 @@ class OneToOneRepeatability {
 
   /// Returns this pair's own sums. Throws Error when the frames' protocols differ.
   OneToOneRepeatability addPair(const SpatialFrame& first, const SpatialFrame& second);
+  /// Of frames all of whose lines have been projected.
+  OneToOneRepeatability addPair(const ProjectedPair& projected);
 
   std::size_t pairs() const { return pairs_; }
   std::uint64_t visible() const { return visible_; }  ///< projections inside the other image
@@ -45,7 +48,7 @@ class OneToOneRepeatability {
   void reset();
 
  private:
-  void addDirection(const SpatialFrame& from, const SpatialFrame& to);
+  void addDirection(const ProjectedLines& projected);
 
   OneToOneOptions options_;
   std::size_t pairs_ = 0;

@@ -10,6 +10,7 @@
 
 #include "evolin_ros/geometry/distance.h"
 #include "evolin_ros/metrics/exact_sum.h"
+#include "evolin_ros/metrics/projected_pair.h"
 #include "evolin_ros/metrics/protocol.h"
 #include "evolin_ros/metrics/spatial_lines.h"
 
@@ -106,6 +107,9 @@ class RepeatabilityMetrics {
   std::vector<PairRepeatability> measure(const SpatialFrame& first,
                                          const SpatialFrame& second) const;
 
+  /// The same of frames whose lines have been projected, all of them.
+  std::vector<PairRepeatability> measure(ProjectedPair* pair) const;
+
   /// Adds what measure() returned for two frames that are `frame_step` apart. Throws Error when
   /// that is none of the options' steps or the number of results is not that of its settings.
   void add(int frame_step, const std::vector<PairRepeatability>& pair);
@@ -113,6 +117,7 @@ class RepeatabilityMetrics {
   /// Both in one; returns the pair's own results.
   std::vector<PairRepeatability> addPair(int frame_step, const SpatialFrame& first,
                                          const SpatialFrame& second);
+  std::vector<PairRepeatability> addPair(int frame_step, ProjectedPair* pair);
 
   /// Pairs that were added with this step.
   std::size_t pairs(int frame_step) const;
@@ -126,6 +131,7 @@ class RepeatabilityMetrics {
 
  private:
   std::size_t stepIndex(int frame_step) const;
+  void checkFrames(const SpatialFrame& first, const SpatialFrame& second) const;
 
   RepeatabilityOptions options_;
   std::vector<RepeatabilitySetting> settings_;

@@ -1,0 +1,49 @@
+// Projections, scaled and searched for when they are asked for.
+#include "evolin_ros/metrics/projected_pair.h"
+
+#include <cmath>
+
+#include "nearest_line.h"
+#include "scaling.h"
+
+namespace evolin {
+
+ProjectedLines::ProjectedLines(const SpatialFrame& from, const SpatialFrame& to,
+                               double score_threshold)
+    : from_(from), to_(to), projections_(projectLines(from, to, score_threshold)) {}
+
+ProjectedLines::~ProjectedLines() = default;
+
+const LineSegments& ProjectedLines::scaledProjections() {
+  if (scaled_.size() != projections_.size()) {
+    scaled_.reserve(projections_.size());
+    for (const LineProjection& projection : projections_) {
+      scaled_.push_back(scaled(projection.segment, to_.size));
+      scaled_.back().score = from_.lines[projection.row].segment.score;
+    }
+  }
+  return scaled_;
+}
+
+const std::vector<double>& ProjectedLines::nearestDistances(LineDistance distance, double reach) {
+  Nearest& nearest = nearest_[distance == LineDistance::kStructural ? 1 : 0];
+  if (nearest.reach >= reach) {
+    return nearest.distances;
+  }
+  if (!search_) {
+    search_ = std::make_unique<NearestLineSearch>(scaledLines(to_));
+  }
+  const LineSegments& queries = scaledProjections();
+  const bool gate = to_.protocol == Protocol::kEvolin;
+  nearest.reach = reach;
+  nearest.distances.resize(queries.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t index = 0; index < queries.size(); ++index) {
+    // What was found within a shorter reach is the nearest within any.
+    if (std::isinf(nearest.distances[index])) {
+      nearest.distances[index] = search_->find(distance, queries[index], reach, gate).distance;
+    }
+  }
+  return nearest.distances;
+}
+
+}  // namespace evolin
