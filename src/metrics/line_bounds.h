@@ -67,7 +67,8 @@ struct BoundQuestion {
   bool nearest;  ///< whether the lines with the smallest distance alone are wanted
 };
 
-/// Room for a number a block, a number a line, and the answer: a place a line.
+/// Room for a number a block, a number for each of their places, and the answer, as many places;
+/// for kBlockLines more of the first and the last, which may be written to.
 struct BoundSpace {
   std::uint32_t* blocks;
   float* bounds;

@@ -22,14 +22,23 @@ struct FourLines {
     const Int bit = mask & Int{1, 2, 4, 8};
     return static_cast<unsigned>((bit[0] | bit[1]) | (bit[2] | bit[3]));
   }
+  /// To `numbers` (room for kBlockLines) `first` plus the place of each bit; says how many.
+  static std::size_t writePlaces(unsigned bits, std::uint32_t first, std::uint32_t* numbers) {
+    std::size_t found = 0;
+    for (; bits != 0; bits &= bits - 1) {
+      numbers[found++] = first + static_cast<std::uint32_t>(__builtin_ctz(bits));
+    }
+    return found;
+  }
 };
 
 template <class Vectors>
 class BoundLoops {
  public:
+  /// By value: what is written to the space cannot change the question.
   template <LineBound kind>
-  static std::size_t findCandidates(const BlockedLines& lines, const BoundQuestion& question,
-                                    const BoundSpace& space) {
+  static std::size_t findCandidates(const BlockedLines lines, const BoundQuestion question,
+                                    const BoundSpace space) {
     // The whole line counts without the overlap, so that every block may matter.
     constexpr bool every = kind == LineBound::kOrthogonal;
     const std::size_t count =
@@ -46,9 +55,12 @@ class BoundLoops {
     std::size_t found = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t place = (every ? i : space.blocks[i]) * kBlockLines;
-      found += keepPlaces(
-          [&](std::size_t lane) { return load(space.bounds + i * kBlockLines + lane) <= limit; },
-          place, space.places + found);
+      const unsigned bits = bitsOf(
+          [&](std::size_t lane) { return load(space.bounds + i * kBlockLines + lane) <= limit; });
+      if (bits != 0) {  // so it is of few blocks
+        found +=
+            Vectors::writePlaces(bits, static_cast<std::uint32_t>(place), space.places + found);
+      }
     }
     return found;
   }
@@ -70,19 +82,14 @@ class BoundLoops {
     return reinterpret_cast<Float>(reinterpret_cast<Int>(values) & 0x7fffffff);
   }
 
-  /// Those of kBlockLines numbers from `first` on whose lane the mask holds; says how many.
+  /// One bit for each of kBlockLines lanes whose part the mask holds.
   template <class Mask>
-  static std::size_t keepPlaces(const Mask& mask, std::size_t first, std::uint32_t* places) {
+  static unsigned bitsOf(const Mask& mask) {
     unsigned bits = 0;
     for (std::size_t lane = 0; lane < kBlockLines; lane += kWidth) {
       bits |= Vectors::bits(mask(lane)) << lane;
     }
-    std::size_t found = 0;
-    for (; bits != 0; bits &= bits - 1) {
-      places[found++] =
-          static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(__builtin_ctz(bits));
-    }
-    return found;
+    return bits;
   }
 
   template <LineBound kind>
@@ -110,7 +117,8 @@ class BoundLoops {
         }
         return dx * dx + dy * dy <= extent + reach;
       };
-      found += keepPlaces(is_near, first, blocks + found);
+      found +=
+          Vectors::writePlaces(bitsOf(is_near), static_cast<std::uint32_t>(first), blocks + found);
     }
     return found;
   }

@@ -83,9 +83,9 @@ std::size_t cellOf(double value, const Range& range, double scale) {
 NearLines::NearLines(const LineSegments& lines, CandidateFinder finder) : finder_(finder) {
   sortRows(lines);
   fillBlocks(lines);
-  near_blocks_.resize(blocks_.size());
+  near_blocks_.resize(blocks_.size() + kBlockLines);
   bounds_.resize(blocks_.size() * kBlockLines);
-  answer_.resize(blocks_.size() * kBlockLines);
+  answer_.resize(bounds_.size() + kBlockLines);
 }
 
 void NearLines::sortRows(const LineSegments& lines) {
