@@ -97,10 +97,11 @@ void NearLines::sortRows(const LineSegments& lines) {
   }
   const double x_scale = kCells / (xs.high - xs.low);
   const double y_scale = kCells / (ys.high - ys.low);
-  // Midpoints are spread over a square of half this side; a tenth and a quarter of that are long.
+  // Twice the side of the square that midpoints are spread over; an eighth and a third of it are
+  // long.
   const double side = std::max(xs.high - xs.low, ys.high - ys.low);
-  const double medium = side * side / 400;
-  const double long_one = side * side / 64;
+  const double medium = side * side / (16 * 16);
+  const double long_one = side * side / (6 * 6);
 
   std::vector<std::uint8_t> keys(lines.size());
   std::array<std::uint32_t, kLengths * kCells * kCells + 1> next{};

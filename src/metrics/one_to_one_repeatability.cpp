@@ -87,6 +87,9 @@ void OneToOneRepeatability::addDirection(const ProjectedLines& projected) {
   std::vector<double> lengths;  // of the projections
   lengths.reserve(projections.size());
   std::vector<Candidate> candidates;
+  candidates.reserve(2 * projections.size());
+  std::vector<std::uint32_t> of_projections(projections.size());  // candidates of each
+  std::vector<std::uint32_t> of_lines(to.lines.size());
   for (std::size_t index = 0; index < projections.size(); ++index) {
     const LineSegment& projection = projections[index].segment;
     ++visible_;
@@ -103,24 +106,34 @@ void OneToOneRepeatability::addDirection(const ProjectedLines& projected) {
           (coveredShare(projection, line) + coveredShare(line, projection)) / 2 >=
               options_.min_overlap) {
         candidates.push_back({distance, index, inside.rows[place]});
+        ++of_projections[index];
+        ++of_lines[inside.rows[place]];
       }
     }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+  const auto match = [&](const Candidate& candidate) {
+    ++matched_;
+    matched_length_.add(
+        lengths[candidate.projection] *
+        coveredShare(projections[candidate.projection].segment, to.lines[candidate.line].segment));
+  };
+  // Most have no rival: whatever the order, they match.
+  const auto contested =
+      std::partition(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+        return of_projections[candidate.projection] == 1 && of_lines[candidate.line] == 1;
+      });
+  std::for_each(candidates.begin(), contested, match);
+  std::sort(contested, candidates.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.distance, a.projection, a.line) < std::tie(b.distance, b.projection, b.line);
   });
   std::vector<bool> projection_taken(projections.size(), false);
   std::vector<bool> line_taken(to.lines.size(), false);
-  for (const Candidate& candidate : candidates) {
-    if (projection_taken[candidate.projection] || line_taken[candidate.line]) {
-      continue;
+  for (auto candidate = contested; candidate != candidates.end(); ++candidate) {
+    if (!projection_taken[candidate->projection] && !line_taken[candidate->line]) {
+      projection_taken[candidate->projection] = true;
+      line_taken[candidate->line] = true;
+      match(*candidate);
     }
-    projection_taken[candidate.projection] = true;
-    line_taken[candidate.line] = true;
-    const LineSegment& projection = projections[candidate.projection].segment;
-    ++matched_;
-    matched_length_.add(lengths[candidate.projection] *
-                        coveredShare(projection, to.lines[candidate.line].segment));
   }
 }
 
