@@ -115,13 +115,22 @@ std::vector<std::uint32_t> findHits(const LineSegments& predictions,
       *std::max_element(options.distance_thresholds.begin(), options.distance_thresholds.end());
   const bool gate = options.protocol == Protocol::kEvolin;
   NearestLineSearch search(ground_truth);
+  const bool both = options.distances.size() > 1;
+  std::vector<NearestLines> found;
+  if (both) {
+    found.reserve(predictions.size());
+    for (const LineSegment& prediction : predictions) {
+      found.push_back(search.findBoth(prediction, reach, gate));
+    }
+  }
   std::vector<NearestLine> nearest(predictions.size());
   std::vector<std::int64_t> best(ground_truth.size());
   std::vector<std::uint32_t> hits(predictions.size(), 0);
   std::uint32_t bit = 1;
   for (const LineDistance distance : options.distances) {
     for (std::size_t index = 0; index < predictions.size(); ++index) {
-      nearest[index] = search.find(distance, predictions[index], reach, gate);
+      nearest[index] =
+          both ? found[index].of(distance) : search.find(distance, predictions[index], reach, gate);
     }
     for (const double threshold : options.distance_thresholds) {
       chooseBest(predictions, nearest, threshold, scored, options.protocol, &best);

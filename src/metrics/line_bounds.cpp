@@ -9,14 +9,14 @@ namespace evolin {
 
 namespace generic {
 
-std::size_t findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
+BoundCounts findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
                            const BoundSpace& space) {
   return findCandidatesWith<FourLines>(kind, lines, question, space);
 }
 
 }  // namespace generic
 
-std::size_t findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
+BoundCounts findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
                            const BoundSpace& space) {
   static const bool has_wide =
       cv::checkHardwareSupport(CV_CPU_AVX2) && cv::checkHardwareSupport(CV_CPU_FMA3);

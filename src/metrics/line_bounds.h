@@ -47,10 +47,13 @@ struct BlockedLines {
   std::size_t blocks_count;
 };
 
+/// Which distances are asked for.
 enum class LineBound {
-  kStructural,   ///< squared: the smaller sum of squares, which is half of the distance at least
-  kOrthogonal,   ///< the distance itself
-  kOverlapping,  ///< the same of lines that cover enough of each other
+  kStructural,
+  kOrthogonal,
+  kOverlapping,  ///< orthogonal, of lines that cover enough of each other
+  kStructuralAndOrthogonal,
+  kStructuralAndOverlapping,
 };
 
 struct BoundQuestion {
@@ -60,35 +63,46 @@ struct BoundQuestion {
   /// Of sums of endpoints, squared: those of lines that are wanted are not farther apart.
   /// kOverlapping: but for the longer line's squared length.
   float box_reach;
-  float reach;  ///< in the bound's unit; what is above is not wanted
-  float error;  ///< that a distance may have
-  /// kOverlapping: least sum of the shares that two lines cover of each other.
-  float overlap;
-  bool nearest;  ///< whether the lines with the smallest distance alone are wanted
+  float squared_reach;  ///< structural: what is farther away is not wanted
+  float reach;          ///< orthogonal
+  float error;          ///< that a distance may have
+  float overlap;  ///< kOverlapping: least sum of the shares that two lines cover of each other
+  bool nearest;   ///< whether the lines with the smallest distance alone are wanted
 };
 
-/// Room for a number a block, a number for each of their places, and the answer, as many places;
-/// for kBlockLines more of the first and the last, which may be written to.
-struct BoundSpace {
-  std::uint32_t* blocks;
+/// Of one distance: a number for each place of a block, and the answer, as many places.
+struct BoundAnswer {
   float* bounds;
   std::uint32_t* places;
 };
 
-/// To `space.places` where the wanted lines stand (block times kBlockLines and place therein), and
+/// Room for all blocks; for kBlockLines more numbers of the blocks and places, which may be written
+/// to.
+struct BoundSpace {
+  std::uint32_t* blocks;
+  BoundAnswer structural;
+  BoundAnswer orthogonal;
+};
+
+struct BoundCounts {
+  std::size_t structural;
+  std::size_t orthogonal;
+};
+
+/// To the places where the wanted lines stand (block times kBlockLines and place therein), and
 /// where some others do: processors differ in these. Says how many.
-std::size_t findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
+BoundCounts findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
                            const BoundSpace& space);
 
 using CandidateFinder = decltype(&findCandidates);
 
 namespace generic {
-std::size_t findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
+BoundCounts findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
                            const BoundSpace& space);
 }
 /// For processors with AVX2 and FMA alone, where there are such.
 namespace wide {
-std::size_t findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
+BoundCounts findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
                            const BoundSpace& space);
 }
 

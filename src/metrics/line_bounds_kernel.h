@@ -32,37 +32,67 @@ struct FourLines {
   }
 };
 
+constexpr bool isOverlapping(LineBound kind) {
+  return kind == LineBound::kOverlapping || kind == LineBound::kStructuralAndOverlapping;
+}
+constexpr bool isOrthogonal(LineBound kind) { return kind != LineBound::kStructural; }
+constexpr bool isStructural(LineBound kind) {
+  return kind != LineBound::kOrthogonal && kind != LineBound::kOverlapping;
+}
+
 template <class Vectors>
 class BoundLoops {
  public:
   /// By value: what is written to the space cannot change the question.
   template <LineBound kind>
-  static std::size_t findCandidates(const BlockedLines lines, const BoundQuestion question,
+  static BoundCounts findCandidates(const BlockedLines lines, const BoundQuestion question,
                                     const BoundSpace space) {
     // The whole line counts without the overlap, so that every block may matter.
-    constexpr bool every = kind == LineBound::kOrthogonal;
+    constexpr bool every = isOrthogonal(kind) && !isOverlapping(kind);
     const std::size_t count =
         every ? lines.blocks_count : findBlocks<kind>(lines, question, space.blocks);
-    Float lowest = Float{} + __builtin_inff();
+    const auto blockAt = [&](std::size_t i) { return every ? i : space.blocks[i]; };
+    Float lowest_structural = Float{} + __builtin_inff();
+    Float lowest_orthogonal = lowest_structural;
     for (std::size_t i = 0; i < count; ++i) {
-      const LineBlock& block = lines.blocks[every ? i : space.blocks[i]];
+      const LineBlock& block = lines.blocks[blockAt(i)];
       for (std::size_t lane = 0; lane < kBlockLines; lane += kWidth) {
-        const Float bound = boundOf<kind>(block, lane, question, &lowest);
-        __builtin_memcpy(space.bounds + i * kBlockLines + lane, &bound, sizeof(bound));
+        const std::size_t place = i * kBlockLines + lane;
+        if constexpr (isStructural(kind)) {
+          const Float bound = structuralBound(block, lane, question.line, &lowest_structural);
+          __builtin_memcpy(space.structural.bounds + place, &bound, sizeof(bound));
+        }
+        if constexpr (isOrthogonal(kind)) {
+          const Float bound =
+              orthogonalBound<isOverlapping(kind)>(block, lane, question, &lowest_orthogonal);
+          __builtin_memcpy(space.orthogonal.bounds + place, &bound, sizeof(bound));
+        }
       }
     }
-    const Float limit = Float{} + limitFor(kind, question, lowest);
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t place = (every ? i : space.blocks[i]) * kBlockLines;
-      const unsigned bits = bitsOf(
-          [&](std::size_t lane) { return load(space.bounds + i * kBlockLines + lane) <= limit; });
-      if (bits != 0) {  // so it is of few blocks
-        found +=
-            Vectors::writePlaces(bits, static_cast<std::uint32_t>(place), space.places + found);
+    const auto collect = [&](const BoundAnswer& answer, float reach) {
+      const Float limit = Float{} + reach;
+      std::size_t found = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const float* const bounds = answer.bounds + i * kBlockLines;
+        const unsigned bits =
+            bitsOf([&](std::size_t lane) { return load(bounds + lane) <= limit; });
+        if (bits != 0) {  // so it is of few blocks
+          const auto first = static_cast<std::uint32_t>(blockAt(i) * kBlockLines);
+          found += Vectors::writePlaces(bits, first, answer.places + found);
+        }
       }
+      return found;
+    };
+    BoundCounts counts = {};
+    if constexpr (isStructural(kind)) {
+      counts.structural =
+          collect(space.structural, structuralLimit(question, leastOf(lowest_structural)));
     }
-    return found;
+    if constexpr (isOrthogonal(kind)) {
+      counts.orthogonal =
+          collect(space.orthogonal, orthogonalLimit(question, leastOf(lowest_orthogonal)));
+    }
+    return counts;
   }
 
  private:
@@ -110,7 +140,7 @@ class BoundLoops {
             none);
         // Not a number where there is no block.
         Float extent = load(boxes.squared_longest + lane);
-        if constexpr (kind == LineBound::kOverlapping) {
+        if constexpr (isOverlapping(kind)) {
           extent = Vectors::larger(squared_length, extent);
         } else {
           extent *= 0.0F;
@@ -123,24 +153,32 @@ class BoundLoops {
     return found;
   }
 
-  /// Lowers `lowest` to bounds of lines that surely are as near as they say.
-  template <LineBound kind>
-  static Float boundOf(const LineBlock& block, std::size_t lane, const BoundQuestion& question,
-                       Float* lowest) {
+  /// Squared: the smaller sum of squares, whose root is half of the distance at least. Lowers
+  /// `lowest` to it.
+  static Float structuralBound(const LineBlock& block, std::size_t lane, const NarrowLine& line,
+                               Float* lowest) {
+    const Float x1 = load(block.x1 + lane);
+    const Float y1 = load(block.y1 + lane);
+    const Float x2 = load(block.x2 + lane);
+    const Float y2 = load(block.y2 + lane);
+    const Float straight = squared(x1 - line.x1) + squared(y1 - line.y1) +
+                           (squared(x2 - line.x2) + squared(y2 - line.y2));
+    const Float crossed = squared(x1 - line.x2) + squared(y1 - line.y2) +
+                          (squared(x2 - line.x1) + squared(y2 - line.y1));
+    const Float bound = Vectors::smaller(straight, crossed);
+    *lowest = Vectors::smaller(bound, *lowest);
+    return bound;
+  }
+
+  /// The distance. Lowers `lowest` to that of lines which surely cover enough of each other.
+  template <bool overlapping>
+  static Float orthogonalBound(const LineBlock& block, std::size_t lane,
+                               const BoundQuestion& question, Float* lowest) {
     const NarrowLine& line = question.line;
     const Float x1 = load(block.x1 + lane);
     const Float y1 = load(block.y1 + lane);
     const Float x2 = load(block.x2 + lane);
     const Float y2 = load(block.y2 + lane);
-    if constexpr (kind == LineBound::kStructural) {
-      const Float straight = squared(x1 - line.x1) + squared(y1 - line.y1) +
-                             (squared(x2 - line.x2) + squared(y2 - line.y2));
-      const Float crossed = squared(x1 - line.x2) + squared(y1 - line.y2) +
-                            (squared(x2 - line.x1) + squared(y2 - line.y1));
-      const Float bound = Vectors::smaller(straight, crossed);
-      *lowest = Vectors::smaller(bound, *lowest);
-      return bound;
-    }
     const Float normal_x = load(block.normal_x + lane);
     const Float normal_y = load(block.normal_y + lane);
     const Float offset = load(block.offset + lane);
@@ -149,7 +187,7 @@ class BoundLoops {
     const Float ours = magnitude(normal_x * line.x1 + (normal_y * line.y1 + offset)) +
                        magnitude(normal_x * line.x2 + (normal_y * line.y2 + offset));
     const Float distance = 0.5F * (theirs + ours);
-    if constexpr (kind == LineBound::kOrthogonal) {
+    if constexpr (!overlapping) {
       *lowest = Vectors::smaller(distance, *lowest);
       return distance;
     }
@@ -181,27 +219,32 @@ class BoundLoops {
     return Vectors::larger(high - low, none) * inverse_length;
   }
 
-  /// The bound of the nearest line, at most.
-  static float limitFor(LineBound kind, const BoundQuestion& question, const Float& lowest) {
-    if (!question.nearest) {
-      return question.reach;
-    }
-    float least = lowest[0];
+  static float leastOf(const Float& values) {
+    float least = values[0];
     for (std::size_t lane = 1; lane < kWidth; ++lane) {
-      least = lowest[lane] < least ? lowest[lane] : least;
+      least = values[lane] < least ? values[lane] : least;
     }
-    // The smallest distance is one error above what the bounds say at most, and its own bound one
-    // above it. From the structural bound b^2 to the distance it is 2^(1/2) b, and
-    // (2^(1/2) b + 2 e)^2 <= 1.01 * 2 b^2 + 101 * 4 e^2.
-    const float error = question.error;
-    const float limit = kind == LineBound::kStructural ? 2.03F * least + 410 * error * error
-                                                       : 1.0001F * (least + 2 * error);
-    return limit < question.reach ? limit : question.reach;
+    return least;
+  }
+
+  // What bounds the nearest line has at most. The smallest distance is one error above what the
+  // lowest bound says at most, and its own bound one above it.
+
+  static float orthogonalLimit(const BoundQuestion& question, float lowest) {
+    const float limit = 1.0001F * (lowest + 2 * question.error);
+    return question.nearest && limit < question.reach ? limit : question.reach;
+  }
+
+  /// From the bound b^2 to the distance it is 2^(1/2) b, and (2^(1/2) b + 2 e)^2 <= 1.01 * 2 b^2 +
+  /// 101 * 4 e^2.
+  static float structuralLimit(const BoundQuestion& question, float lowest) {
+    const float limit = 2.03F * lowest + 410 * question.error * question.error;
+    return question.nearest && limit < question.squared_reach ? limit : question.squared_reach;
   }
 };
 
 template <class Vectors>
-std::size_t findCandidatesWith(LineBound kind, const BlockedLines& lines,
+BoundCounts findCandidatesWith(LineBound kind, const BlockedLines& lines,
                                const BoundQuestion& question, const BoundSpace& space) {
   using Loops = BoundLoops<Vectors>;
   switch (kind) {
@@ -210,9 +253,15 @@ std::size_t findCandidatesWith(LineBound kind, const BlockedLines& lines,
     case LineBound::kOrthogonal:
       return Loops::template findCandidates<LineBound::kOrthogonal>(lines, question, space);
     case LineBound::kOverlapping:
+      return Loops::template findCandidates<LineBound::kOverlapping>(lines, question, space);
+    case LineBound::kStructuralAndOrthogonal:
+      return Loops::template findCandidates<LineBound::kStructuralAndOrthogonal>(lines, question,
+                                                                                 space);
+    case LineBound::kStructuralAndOverlapping:
       break;
   }
-  return Loops::template findCandidates<LineBound::kOverlapping>(lines, question, space);
+  return Loops::template findCandidates<LineBound::kStructuralAndOverlapping>(lines, question,
+                                                                              space);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ using Widest = FourLines;
 
 }  // namespace
 
-std::size_t findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
+BoundCounts findCandidates(LineBound kind, const BlockedLines& lines, const BoundQuestion& question,
                            const BoundSpace& space) {
   return findCandidatesWith<Widest>(kind, lines, question, space);
 }

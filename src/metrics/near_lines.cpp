@@ -84,8 +84,12 @@ NearLines::NearLines(const LineSegments& lines, CandidateFinder finder) : finder
   sortRows(lines);
   fillBlocks(lines);
   near_blocks_.resize(blocks_.size() + kBlockLines);
-  bounds_.resize(blocks_.size() * kBlockLines);
-  answer_.resize(bounds_.size() + kBlockLines);
+  for (std::vector<float>* bounds : {&structural_bounds_, &orthogonal_bounds_}) {
+    bounds->resize(blocks_.size() * kBlockLines);
+  }
+  for (std::vector<std::uint32_t>* places : {&structural_, &orthogonal_}) {
+    places->resize((blocks_.size() + 1) * kBlockLines);
+  }
 }
 
 void NearLines::sortRows(const LineSegments& lines) {
@@ -159,45 +163,55 @@ void NearLines::fillBlocks(const LineSegments& lines) {
   }
 }
 
-NearLines::Rows NearLines::find(const LineSegment& query, const NearQuestion& question) {
+NearLines::Rows NearLines::rowsOf(std::vector<std::uint32_t>* places, std::size_t count) const {
+  std::uint32_t* const first = places->data();
+  for (std::size_t i = 0; i < count; ++i) {
+    first[i] = rows_[first[i]];
+  }
+  return {first, first + count};
+}
+
+NearLines::Answer NearLines::find(const LineSegment& query, const NearQuestion& question) {
   const double squared_length = squaredLength(query);
   const double largest = std::max(largest_, largestCoordinate(query));
   // Single precision keeps 24 bits: distances are good to about 1e-6 of the largest coordinate.
   const double error = 1e-5 * (1 + largest);
   const double reach = (question.reach + error) * (1 + 1e-5);
   BoundQuestion bound;
+  bound.line = question.orthogonal ? narrowed(query, squared_length) : narrowedEnds(query);
   bound.sum_x = narrow(query.x1 + query.x2);
   bound.sum_y = narrow(query.y1 + query.y2);
   bound.squared_length = narrow(squared_length);
-  bound.box_reach = std::numeric_limits<float>::infinity();
+  bound.squared_reach = narrow(reach * reach);
   bound.reach = narrow(reach);
   bound.error = narrow(error);
   bound.overlap = narrow(2 * question.min_overlap);
   bound.nearest = question.nearest;
   LineBound kind = LineBound::kStructural;
-  if (question.distance == LineDistance::kStructural) {
-    bound.line = narrowedEnds(query);
-    bound.reach = narrow(reach * reach);
+  if (!question.orthogonal) {
     // |p1-q1| + |p2-q2| >= |(p1+p2) - (q1+q2)|, and so for the crossed pairing.
-    bound.box_reach = bound.reach;
+    bound.box_reach = bound.squared_reach;
+  } else if (question.min_overlap >= 0.5) {
+    // One of two such lines is covered at its midpoint, which the other's has then within half of
+    // that one's length along it and within reach across: |mid - mid|^2 <= (longer / 2)^2 +
+    // reach^2. Here for sums of endpoints, so four times that: more than for the structural one.
+    bound.box_reach =
+        narrow(4 * question.reach * question.reach * (1 + 1e-4) + 1e-4 * (1 + largest * largest));
   } else {
-    bound.line = narrowed(query, squared_length);
-    kind = question.min_overlap > 0 ? LineBound::kOverlapping : LineBound::kOrthogonal;
-    if (question.min_overlap >= 0.5) {
-      // One of two such lines is covered at its midpoint, which the other's has then within half of
-      // that one's length along it and within reach across: |mid - mid|^2 <= (longer / 2)^2 +
-      // reach^2. Here for sums of endpoints, so four times that.
-      bound.box_reach =
-          narrow(4 * question.reach * question.reach * (1 + 1e-4) + 1e-4 * (1 + largest * largest));
-    }
+    bound.box_reach = std::numeric_limits<float>::infinity();
   }
-  const BoundSpace space = {near_blocks_.data(), bounds_.data(), answer_.data()};
-  const std::size_t found =
+  if (question.orthogonal && question.min_overlap > 0) {
+    kind = question.structural ? LineBound::kStructuralAndOverlapping : LineBound::kOverlapping;
+  } else if (question.orthogonal) {
+    kind = question.structural ? LineBound::kStructuralAndOrthogonal : LineBound::kOrthogonal;
+  }
+  const BoundSpace space = {near_blocks_.data(),
+                            {structural_bounds_.data(), structural_.data()},
+                            {orthogonal_bounds_.data(), orthogonal_.data()}};
+  const BoundCounts found =
       finder_(kind, {blocks_.data(), boxes_.data(), blocks_.size()}, bound, space);
-  for (std::size_t i = 0; i < found; ++i) {
-    answer_[i] = rows_[answer_[i]];
-  }
-  return {answer_.data(), answer_.data() + found};
+  return {rowsOf(&structural_, question.structural ? found.structural : 0),
+          rowsOf(&orthogonal_, found.orthogonal)};
 }
 
 }  // namespace evolin

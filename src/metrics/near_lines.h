@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "evolin_ros/geometry/distance.h"
 #include "evolin_ros/geometry/line_segment.h"
 #include "line_bounds.h"
 
 namespace evolin {
 
-/// Which lines are wanted: those at most `reach` (finite) away under `distance`.
+/// Which lines are wanted: those at most `reach` (finite) away under each distance asked for.
 struct NearQuestion {
-  LineDistance distance = LineDistance::kStructural;
+  bool structural = false;
+  bool orthogonal = false;
   double reach = 0;
-  /// Orthogonal alone: the mean share of each line that the other covers, at least; 0: any.
+  /// Orthogonal: the mean share of each line that the other covers, at least; 0: any.
   double min_overlap = 0;
   bool nearest = false;  ///< of these, those with the smallest distance alone
 };
@@ -36,12 +36,19 @@ class NearLines {
     const std::uint32_t* end() const { return last; }
   };
 
+  /// By distance; none for one that was not asked for.
+  struct Answer {
+    Rows structural;
+    Rows orthogonal;
+  };
+
   /// Rows of all lines that are wanted and of a few more, in any order; valid until the next call.
-  Rows find(const LineSegment& query, const NearQuestion& question);
+  Answer find(const LineSegment& query, const NearQuestion& question);
 
  private:
   void sortRows(const LineSegments& lines);
   void fillBlocks(const LineSegments& lines);
+  Rows rowsOf(std::vector<std::uint32_t>* places, std::size_t count) const;
 
   CandidateFinder finder_;
   double largest_ = 0;               ///< absolute value of a coordinate
@@ -50,8 +57,10 @@ class NearLines {
   std::vector<BoxGroup> boxes_;
   // Of the question being answered.
   std::vector<std::uint32_t> near_blocks_;
-  std::vector<float> bounds_;
-  std::vector<std::uint32_t> answer_;
+  std::vector<float> structural_bounds_;
+  std::vector<float> orthogonal_bounds_;
+  std::vector<std::uint32_t> structural_;
+  std::vector<std::uint32_t> orthogonal_;
 };
 
 }  // namespace evolin

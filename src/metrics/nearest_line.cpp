@@ -5,27 +5,47 @@
 
 namespace evolin {
 
+namespace {
+
+/// The mean share that the orthogonal distance's gate asks for.
+constexpr double kGate = 0.5;
+
+}  // namespace
+
 NearestLineSearch::NearestLineSearch(LineSegments lines)
     : lines_(std::move(lines)), near_(lines_) {}
 
 NearestLine NearestLineSearch::find(LineDistance distance, const LineSegment& query, double reach,
                                     bool overlap_gate) {
   const bool structural = distance == LineDistance::kStructural;
-  NearQuestion question;
-  question.distance = distance;
-  question.reach = reach;
-  question.min_overlap = overlap_gate ? 0.5 : 0;
-  question.nearest = true;
-  NearestLine nearest;
-  for (const std::uint32_t row : near_.find(query, question)) {
-    const double exact = structural ? structuralDistance(query, lines_[row])
-                                    : orthogonalDistance(query, lines_[row], overlap_gate);
-    if (exact <= reach &&
-        (exact < nearest.distance || (exact == nearest.distance && row < nearest.row))) {
-      nearest = {row, exact};
+  return findNearest({structural, !structural, reach, overlap_gate ? kGate : 0, true}, query)
+      .of(distance);
+}
+
+NearestLines NearestLineSearch::findBoth(const LineSegment& query, double reach,
+                                         bool overlap_gate) {
+  return findNearest({true, true, reach, overlap_gate ? kGate : 0, true}, query);
+}
+
+NearestLines NearestLineSearch::findNearest(const NearQuestion& question,
+                                            const LineSegment& query) {
+  const NearLines::Answer candidates = near_.find(query, question);
+  const auto nearestOf = [&](const NearLines::Rows& rows, const auto& distanceTo) {
+    NearestLine nearest;
+    for (const std::uint32_t row : rows) {
+      const double exact = distanceTo(lines_[row]);
+      if (exact <= question.reach &&
+          (exact < nearest.distance || (exact == nearest.distance && row < nearest.row))) {
+        nearest = {row, exact};
+      }
     }
-  }
-  return nearest;
+    return nearest;
+  };
+  const bool gate = question.min_overlap > 0;
+  return {nearestOf(candidates.orthogonal,
+                    [&](const LineSegment& line) { return orthogonalDistance(query, line, gate); }),
+          nearestOf(candidates.structural,
+                    [&](const LineSegment& line) { return structuralDistance(query, line); })};
 }
 
 }  // namespace evolin

@@ -16,6 +16,16 @@ struct NearestLine {
   double distance = std::numeric_limits<double>::infinity();
 };
 
+/// By distance.
+struct NearestLines {
+  NearestLine orthogonal;
+  NearestLine structural;
+
+  const NearestLine& of(LineDistance distance) const {
+    return distance == LineDistance::kStructural ? structural : orthogonal;
+  }
+};
+
 /// Holds the lines of one frame for any number of questions. Bounds in single precision leave a few
 /// lines of which a question computes the exact distance; answers equal those of an exhaustive
 /// search to the last bit. One thread at a time.
@@ -28,7 +38,12 @@ class NearestLineSearch {
   NearestLine find(LineDistance distance, const LineSegment& query, double reach,
                    bool overlap_gate);
 
+  /// Of both distances, in little more time than of one.
+  NearestLines findBoth(const LineSegment& query, double reach, bool overlap_gate);
+
  private:
+  NearestLines findNearest(const NearQuestion& question, const LineSegment& query);
+
   LineSegments lines_;
   NearLines near_;
 };

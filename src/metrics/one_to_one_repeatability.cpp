@@ -81,7 +81,7 @@ void OneToOneRepeatability::addDirection(const ProjectedLines& projected) {
   const LinesInImage inside(to);
   NearLines lines(inside.lines);
   NearQuestion question;
-  question.distance = LineDistance::kOrthogonal;
+  question.orthogonal = true;
   question.reach = options_.max_distance;
   question.min_overlap = options_.min_overlap;
   std::vector<double> lengths;  // of the projections
@@ -95,7 +95,7 @@ void OneToOneRepeatability::addDirection(const ProjectedLines& projected) {
     ++visible_;
     lengths.push_back(projection.length());
     visible_length_.add(lengths.back());
-    for (const std::uint32_t place : lines.find(projection, question)) {
+    for (const std::uint32_t place : lines.find(projection, question).orthogonal) {
       const LineSegment& line = inside.lines[place];
       if (!isWithinAngle(projection, line, tangent)) {
         continue;

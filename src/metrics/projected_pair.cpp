@@ -1,6 +1,7 @@
 // Projections, scaled and searched for when they are asked for.
 #include "evolin_ros/metrics/projected_pair.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "nearest_line.h"
@@ -25,25 +26,47 @@ const LineSegments& ProjectedLines::scaledProjections() {
   return scaled_;
 }
 
-const std::vector<double>& ProjectedLines::nearestDistances(LineDistance distance, double reach) {
-  Nearest& nearest = nearest_[distance == LineDistance::kStructural ? 1 : 0];
-  if (nearest.reach >= reach) {
-    return nearest.distances;
-  }
+NearestLineSearch& ProjectedLines::search() {
   if (!search_) {
     search_ = std::make_unique<NearestLineSearch>(scaledLines(to_));
   }
+  return *search_;
+}
+
+ProjectedLines::Nearest& ProjectedLines::nearestOf(LineDistance distance) {
+  return nearest_[distance == LineDistance::kStructural ? 1 : 0];
+}
+
+const std::vector<double>& ProjectedLines::nearestDistances(LineDistance distance, double reach) {
+  Nearest& nearest = nearestOf(distance);
+  if (nearest.reach >= reach) {
+    return nearest.distances;
+  }
   const LineSegments& queries = scaledProjections();
-  const bool gate = to_.protocol == Protocol::kEvolin;
   nearest.reach = reach;
   nearest.distances.resize(queries.size(), std::numeric_limits<double>::infinity());
   for (std::size_t index = 0; index < queries.size(); ++index) {
     // What was found within a shorter reach is the nearest within any.
     if (std::isinf(nearest.distances[index])) {
-      nearest.distances[index] = search_->find(distance, queries[index], reach, gate).distance;
+      nearest.distances[index] = search().find(distance, queries[index], reach, gate()).distance;
     }
   }
   return nearest.distances;
+}
+
+void ProjectedLines::searchBoth(double reach) {
+  Nearest& orthogonal = nearestOf(LineDistance::kOrthogonal);
+  Nearest& structural = nearestOf(LineDistance::kStructural);
+  if (std::max(orthogonal.reach, structural.reach) >= 0) {
+    return;  // what is known already is not searched for again
+  }
+  for (const LineSegment& query : scaledProjections()) {
+    const NearestLines found = search().findBoth(query, reach, gate());
+    orthogonal.distances.push_back(found.orthogonal.distance);
+    structural.distances.push_back(found.structural.distance);
+  }
+  orthogonal.reach = reach;
+  structural.reach = reach;
 }
 
 }  // namespace evolin

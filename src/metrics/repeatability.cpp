@@ -91,6 +91,9 @@ void appendRedetections(const std::vector<double>& nearest, const RepeatabilityO
 /// One sum a setting of a step, distance slowest.
 std::vector<Redetections> findRedetections(const RepeatabilityOptions& options,
                                            ProjectedLines* projected) {
+  if (options.distances.size() > 1) {
+    projected->searchBoth(longestReach(options));
+  }
   std::vector<Redetections> result;
   for (const LineDistance distance : options.distances) {
     appendRedetections(projected->nearestDistances(distance, longestReach(options)), options,

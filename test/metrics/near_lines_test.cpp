@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "evolin_ros/geometry/distance.h"
 #include "test/metrics/mixed_lines.h"
 
 namespace evolin {
@@ -24,8 +25,9 @@ std::vector<CandidateFinder> finders() {
 }
 
 /// Infinite where the lines cover too little of each other.
-double distanceBetween(const NearQuestion& question, const LineSegment& a, const LineSegment& b) {
-  if (question.distance == LineDistance::kStructural) {
+double distanceBetween(LineDistance distance, const NearQuestion& question, const LineSegment& a,
+                       const LineSegment& b) {
+  if (distance == LineDistance::kStructural) {
     return structuralDistance(a, b);
   }
   const bool covered = question.min_overlap == 0 ||
@@ -33,12 +35,12 @@ double distanceBetween(const NearQuestion& question, const LineSegment& a, const
   return covered ? orthogonalDistance(a, b, false) : std::numeric_limits<double>::infinity();
 }
 
-std::set<std::uint32_t> wantedRows(const NearQuestion& question, const LineSegment& query,
-                                   const LineSegments& lines) {
+std::set<std::uint32_t> wantedRows(LineDistance distance, const NearQuestion& question,
+                                   const LineSegment& query, const LineSegments& lines) {
   std::vector<double> distances;
   double limit = question.reach;
   for (const LineSegment& line : lines) {
-    distances.push_back(distanceBetween(question, query, line));
+    distances.push_back(distanceBetween(distance, question, query, line));
     limit = question.nearest ? std::min(limit, distances.back()) : limit;
   }
   std::set<std::uint32_t> rows;
@@ -50,19 +52,34 @@ std::set<std::uint32_t> wantedRows(const NearQuestion& question, const LineSegme
   return rows;
 }
 
-/// How many were found for all of the lines, each asked for the lines around it.
-std::size_t expectAllWanted(NearQuestion question, CandidateFinder finder,
+std::size_t expectWanted(const NearLines::Rows& answer, const std::set<std::uint32_t>& wanted,
+                         std::size_t count) {
+  const std::set<std::uint32_t> rows(answer.begin(), answer.end());
+  EXPECT_EQ(rows.size(), static_cast<std::size_t>(answer.end() - answer.begin()));
+  EXPECT_TRUE(rows.empty() || *rows.rbegin() < count);
+  EXPECT_TRUE(std::includes(rows.begin(), rows.end(), wanted.begin(), wanted.end()));
+  return rows.size();
+}
+
+/// How many were found for all of the queries, of both distances.
+std::size_t expectAllWanted(const NearQuestion& question, CandidateFinder finder,
                             const LineSegments& lines, const LineSegments& queries) {
   NearLines near(lines, finder);
   std::size_t found = 0;
   for (const LineSegment& query : queries) {
-    const NearLines::Rows answer = near.find(query, question);
-    const std::set<std::uint32_t> rows(answer.begin(), answer.end());
-    EXPECT_EQ(rows.size(), static_cast<std::size_t>(answer.end() - answer.begin()));
-    EXPECT_TRUE(rows.empty() || *rows.rbegin() < lines.size());
-    const std::set<std::uint32_t> wanted = wantedRows(question, query, lines);
-    EXPECT_TRUE(std::includes(rows.begin(), rows.end(), wanted.begin(), wanted.end()));
-    found += rows.size();
+    const NearLines::Answer answer = near.find(query, question);
+    std::set<std::uint32_t> structural;
+    std::set<std::uint32_t> orthogonal;
+    if (question.structural) {
+      structural = wantedRows(LineDistance::kStructural, question, query, lines);
+    }
+    if (question.orthogonal) {
+      orthogonal = wantedRows(LineDistance::kOrthogonal, question, query, lines);
+    }
+    found += expectWanted(answer.structural, structural, lines.size());
+    found += expectWanted(answer.orthogonal, orthogonal, lines.size());
+    EXPECT_TRUE(question.structural || answer.structural.begin() == answer.structural.end());
+    EXPECT_TRUE(question.orthogonal || answer.orthogonal.begin() == answer.orthogonal.end());
   }
   return found;
 }
@@ -75,10 +92,10 @@ TEST(NearLines, FindsAllThatAreWanted) {
     for (const CandidateFinder finder : finders()) {
       for (const bool nearest : {false, true}) {
         for (const double reach : {0.0, 0.5, 15.0, 600.0}) {
-          expectAllWanted({LineDistance::kStructural, reach, 0, nearest}, finder, lines, queries);
+          expectAllWanted({true, false, reach, 0, nearest}, finder, lines, queries);
           for (const double overlap : {0.0, 0.2, 0.5, 0.9}) {
-            expectAllWanted({LineDistance::kOrthogonal, reach, overlap, nearest}, finder, lines,
-                            queries);
+            expectAllWanted({false, true, reach, overlap, nearest}, finder, lines, queries);
+            expectAllWanted({true, true, reach, overlap, nearest}, finder, lines, queries);
           }
         }
       }
@@ -96,9 +113,9 @@ TEST(NearLines, LeavesFewOthers) {
     queries.push_back(line);
   }
   for (const CandidateFinder finder : finders()) {
-    EXPECT_LT(expectAllWanted({LineDistance::kStructural, 15, 0, true}, finder, lines, queries),
+    EXPECT_LT(expectAllWanted({true, false, 15, 0, true}, finder, lines, queries),
               3 * lines.size());
-    EXPECT_LT(expectAllWanted({LineDistance::kOrthogonal, 15, 0.5, true}, finder, lines, queries),
+    EXPECT_LT(expectAllWanted({false, true, 15, 0.5, true}, finder, lines, queries),
               2 * lines.size());
   }
 }
@@ -113,10 +130,9 @@ TEST(NearLines, LinesThatHardlyHaveALengthAreFound) {
   for (const CandidateFinder finder : finders()) {
     for (const bool nearest : {false, true}) {
       for (const double overlap : {0.0, 0.5}) {
-        expectAllWanted({LineDistance::kOrthogonal, 5, overlap, nearest}, finder, lines, lines);
+        expectAllWanted({false, true, 5, overlap, nearest}, finder, lines, lines);
       }
-      EXPECT_GE(expectAllWanted({LineDistance::kStructural, 5, 0, nearest}, finder, lines, lines),
-                lines.size());
+      EXPECT_GE(expectAllWanted({true, false, 5, 0, nearest}, finder, lines, lines), lines.size());
     }
   }
 }

@@ -53,6 +53,9 @@ TEST_P(NearestLineSearchTest, AnswersAsAnExhaustiveSearchDoes) {
         ASSERT_EQ(actual.row, expected.row) << "reach " << reach;
         ++found;
       }
+      const NearestLine both = search.findBoth(query, reach, gate).of(distance);
+      ASSERT_EQ(both.distance, expected.distance) << "reach " << reach;
+      ASSERT_EQ(both.row, actual.row) << "reach " << reach;
     }
   }
   if (count > 50) {

@@ -36,11 +36,18 @@ class ProjectedLines {
   /// where it is beyond `reach` (finite), or beyond the longest reach that was asked for earlier.
   const std::vector<double>& nearestDistances(LineDistance distance, double reach);
 
+  /// For nearestDistances() of both distances within `reach`: quicker than one after the other.
+  void searchBoth(double reach);
+
  private:
   struct Nearest {
     double reach = -std::numeric_limits<double>::infinity();
     std::vector<double> distances;
   };
+
+  bool gate() const { return to_.protocol == Protocol::kEvolin; }
+  NearestLineSearch& search();
+  Nearest& nearestOf(LineDistance distance);
 
   const SpatialFrame& from_;
   const SpatialFrame& to_;
