@@ -109,16 +109,18 @@ void NearLines::sortRows(const LineSegments& lines) {
 
   std::vector<std::uint8_t> keys(lines.size());
   std::array<std::uint32_t, kLengths * kCells * kCells + 1> next{};
-  static_assert(kLengths * kCells * kCells <= 256, "keys are bytes");
+  static_assert(kLengths * kCells * kCells <= 256 && (kCells & (kCells - 1)) == 0,
+                "keys are bytes, columns are turned bit by bit");
   for (std::size_t row = 0; row < lines.size(); ++row) {
     const LineSegment& line = lines[row];
     const double squared_length = squaredLength(line);
-    const std::size_t length =
-        (squared_length > medium ? 1 : 0) + (squared_length > long_one ? 1 : 0);
+    // Without branches, as they would be taken at random.
+    const std::size_t length = static_cast<std::size_t>(squared_length > medium) +
+                               static_cast<std::size_t>(squared_length > long_one);
     const std::size_t column = cellOf(line.x1 + line.x2, xs, x_scale);
     const std::size_t cell = cellOf(line.y1 + line.y2, ys, y_scale);
     // Up and down the columns in turn, so that a block between two cells is of neighbours.
-    const std::size_t place = column % 2 == 0 ? cell : kCells - 1 - cell;
+    const std::size_t place = cell ^ ((kCells - 1) * (column % 2));
     keys[row] = static_cast<std::uint8_t>((length * kCells + column) * kCells + place);
     ++next[keys[row] + std::size_t{1}];
   }

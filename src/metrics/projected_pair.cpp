@@ -60,7 +60,10 @@ void ProjectedLines::searchBoth(double reach) {
   if (std::max(orthogonal.reach, structural.reach) >= 0) {
     return;  // what is known already is not searched for again
   }
-  for (const LineSegment& query : scaledProjections()) {
+  const LineSegments& queries = scaledProjections();
+  orthogonal.distances.reserve(queries.size());
+  structural.distances.reserve(queries.size());
+  for (const LineSegment& query : queries) {
     const NearestLines found = search().findBoth(query, reach, gate());
     orthogonal.distances.push_back(found.orthogonal.distance);
     structural.distances.push_back(found.structural.distance);

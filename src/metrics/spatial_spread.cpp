@@ -60,10 +60,14 @@ std::size_t touchedCells(const std::string& frame_name, ImageSize size, const Li
       continue;
     }
     const auto [left, right] = std::minmax(inside->x1, inside->x2);
-    for (int column = firstCell(left, grid.columns); column <= lastCell(right, grid.columns);
-         ++column) {
+    const int first = firstCell(left, grid.columns);
+    const int last = lastCell(right, grid.columns);
+    for (int column = first; column <= last; ++column) {
+      // Most lines lie within one column.
       const std::optional<LineSegment> part =
-          clipToRectangle(*inside, {static_cast<double>(column), 0, column + 1.0, bottom});
+          first == last
+              ? inside
+              : clipToRectangle(*inside, {static_cast<double>(column), 0, column + 1.0, bottom});
       if (!part) {
         continue;
       }
