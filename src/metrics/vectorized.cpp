@@ -9,6 +9,7 @@
 #include "detection_matching.h"
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
+#include "score_order.h"
 
 namespace evolin {
 
@@ -148,15 +149,27 @@ ScoreRanking VectorizedMetrics::ranking() const {
   }
   std::vector<ScoreRanking::Entry> entries;
   if (scored()) {
-    std::vector<Prediction> ordered = predictions_;
-    // Rows need no key: a frame's predictions stand in their order, which a stable sort keeps.
-    std::stable_sort(ordered.begin(), ordered.end(), [](const Prediction& a, const Prediction& b) {
-      return a.score != b.score ? a.score > b.score : a.frame < b.frame;
-    });
-    entries.reserve(ordered.size());
+    std::vector<Prediction> by_frame;
+    const std::vector<Prediction>* ordered = &predictions_;
+    const auto is_earlier = [](const Prediction& a, const Prediction& b) {
+      return a.frame < b.frame;
+    };
+    if (!std::is_sorted(predictions_.begin(), predictions_.end(), is_earlier)) {
+      by_frame = predictions_;
+      std::stable_sort(by_frame.begin(), by_frame.end(), is_earlier);
+      ordered = &by_frame;
+    }
+    std::vector<double> scores;
+    scores.reserve(ordered->size());
+    for (const Prediction& prediction : *ordered) {
+      scores.push_back(prediction.score);
+    }
+    entries.reserve(ordered->size());
     // Frames are mostly numbered without gaps: then the number less the first is the index.
     const bool dense = frames_.back().number - frames_.front().number == frames_.size() - 1;
-    for (const Prediction& prediction : ordered) {
+    // Equal scores stay by frame, and a frame's predictions in their order.
+    for (const std::uint32_t place : placesByFallingScore(scores)) {
+      const Prediction& prediction = (*ordered)[place];
       const auto index =
           dense ? prediction.frame - frames_.front().number
                 : static_cast<std::uint32_t>(findFrame(prediction.frame) - frames_.begin());
