@@ -10,6 +10,7 @@
 #include "evolin_ros/dataset/csv.h"
 #include "evolin_ros/evaluation/pose_task.h"
 #include "evolin_ros/metrics/pose_error.h"
+#include "evolin_ros/metrics/resampled_pose_errors.h"
 #include "options.h"
 #include "parallel.h"
 #include "pose_inputs.h"
@@ -172,9 +173,10 @@ void addPublished(const Request& request, const PoseErrorMetrics& metrics, Entri
     return std::vector<double>{medians.rotation, medians.translation_angle, medians.translation};
   };
   const std::vector<double> medians = figures_of(metrics.medians());
+  const ResampledPoseErrors resampled = metrics.resampled();
   const std::vector<ConfidenceInterval> intervals =
       intervalsFor(request.common, metrics.pairs(), [&](const std::vector<std::uint32_t>& weights) {
-        return figures_of(metrics.medians(weights));
+        return figures_of(resampled.medians(weights));
       });
   const std::vector<std::string> names = {"median_angular_rotation_error",
                                           "median_angular_translation_error",

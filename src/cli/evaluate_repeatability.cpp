@@ -11,6 +11,7 @@
 #include "evolin_ros/dataset/camera_file.h"
 #include "evolin_ros/dataset/csv.h"
 #include "evolin_ros/metrics/repeatability.h"
+#include "evolin_ros/metrics/resampled_repeatability.h"
 #include "frame_files.h"
 #include "options.h"
 #include "parallel.h"
@@ -233,18 +234,21 @@ PublishedEntry entryFor(const std::string& name, const RepeatabilitySetting& set
 
 /// Repeatability and localisation error of each of the step's settings in turn.
 std::vector<ConfidenceInterval> intervalsOf(const Request& request, const StepResult& result) {
+  std::vector<ResampledRepeatability> resampled;
+  for (std::size_t setting = 0; setting < result.settings.size(); ++setting) {
+    std::vector<PairRepeatability> pairs;
+    pairs.reserve(result.pairs.size());
+    for (const std::vector<PairRepeatability>& pair : result.pairs) {
+      pairs.push_back(pair[setting]);
+    }
+    resampled.emplace_back(pairs, request.metric.protocol);
+  }
   return intervalsFor(
       request.common, result.pairs.size(), [&](const std::vector<std::uint32_t>& weights) {
         std::vector<double> figures;
-        for (std::size_t setting = 0; setting < result.settings.size(); ++setting) {
-          std::vector<PairRepeatability> pairs;
-          pairs.reserve(result.pairs.size());
-          for (const std::vector<PairRepeatability>& pair : result.pairs) {
-            pairs.push_back(pair[setting]);
-          }
-          const RepeatabilityFigures resampled =
-              weightedFigures(pairs, weights, request.metric.protocol);
-          figures.insert(figures.end(), {resampled.repeatability, resampled.localization_error});
+        for (const ResampledRepeatability& setting : resampled) {
+          const RepeatabilityFigures of_setting = setting.figures(weights);
+          figures.insert(figures.end(), {of_setting.repeatability, of_setting.localization_error});
         }
         return figures;
       });

@@ -3,51 +3,97 @@
 #include "evolin_ros/evaluation/report_confidence.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 
+#include "evolin_ros/metrics/resampled_pose_errors.h"
 #include "evolin_ros/metrics/resampled_precision.h"
+#include "evolin_ros/metrics/resampled_repeatability.h"
 
 namespace evolin {
 
 namespace {
 
-/// A row of figures and how they come from the sequence; `interval` of each is still to be found.
+/// Rows of figures and how they come from the sequence; `interval` of each is still to be found.
 class Resampling {
  public:
-  Resampling(const BootstrapOptions& options, ReportConfidence* confidence)
-      : options_(options), confidence_(confidence) {}
+  explicit Resampling(const BootstrapOptions& options) : options_(options) {}
 
-  void add(std::size_t count, std::vector<FigureInterval> names, const WeightedFigures& figures) {
+  /// What `figures` refers to must live until run().
+  void add(std::size_t count, std::vector<FigureInterval> names, WeightedFigures figures) {
+    addOfMany(count, std::move(names), [figures = std::move(figures)](const Weights& resamples) {
+      std::vector<std::vector<double>> rows;
+      rows.reserve(resamples.size());
+      for (const std::vector<std::uint32_t>& weights : resamples) {
+        rows.push_back(figures(weights));
+      }
+      return rows;
+    });
+  }
+
+  void addOfMany(std::size_t count, std::vector<FigureInterval> names, FiguresOfResamples figures) {
     if (count > 0 && !names.empty()) {
-      take(std::move(names), blockBootstrap(count, optionsFor(count), figures));
+      parts_.push_back({count, std::move(names), std::move(figures)});
     }
   }
 
-  void addOfMany(std::size_t count, std::vector<FigureInterval> names,
-                 const FiguresOfResamples& figures) {
-    if (count > 0 && !names.empty()) {
-      take(std::move(names), blockBootstrapOfMany(count, optionsFor(count), figures));
+  /// All figures in the order in which they were added.
+  std::vector<FigureInterval> run() {
+    std::set<std::size_t> counts;
+    for (const Part& part : parts_) {
+      counts.insert(part.count);
     }
+    for (const std::size_t count : counts) {
+      runPartsOf(count);
+    }
+    std::vector<FigureInterval> all;
+    for (Part& part : parts_) {
+      std::move(part.names.begin(), part.names.end(), std::back_inserter(all));
+    }
+    return all;
   }
 
  private:
-  BootstrapOptions optionsFor(std::size_t count) const {
+  using Weights = std::vector<std::vector<std::uint32_t>>;
+
+  struct Part {
+    std::size_t count;  ///< of frames or pairs
+    std::vector<FigureInterval> names;
+    FiguresOfResamples figures;
+  };
+
+  /// Equal counts are drawn from alike, so that one drawing serves them all.
+  void runPartsOf(std::size_t count) {
     BootstrapOptions options = options_;
     options.block_length =
         static_cast<int>(std::min(static_cast<std::size_t>(options.block_length), count));
-    return options;
-  }
-
-  void take(std::vector<FigureInterval> names, const std::vector<ConfidenceInterval>& intervals) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      names[i].interval = intervals.at(i);
-      confidence_->figures.push_back(std::move(names[i]));
+    const std::vector<ConfidenceInterval> intervals =
+        blockBootstrapOfMany(count, options, [this, count](const Weights& resamples) {
+          std::vector<std::vector<double>> rows(resamples.size());
+          for (const Part& part : parts_) {
+            if (part.count == count) {
+              const std::vector<std::vector<double>> more = part.figures(resamples);
+              for (std::size_t row = 0; row < rows.size(); ++row) {
+                rows[row].insert(rows[row].end(), more[row].begin(), more[row].end());
+              }
+            }
+          }
+          return rows;
+        });
+    auto interval = intervals.begin();
+    for (Part& part : parts_) {
+      if (part.count == count) {
+        for (FigureInterval& name : part.names) {
+          name.interval = *interval++;
+        }
+      }
     }
   }
 
   BootstrapOptions options_;
-  ReportConfidence* confidence_;
+  std::vector<Part> parts_;
 };
 
 FigureInterval named(const char* family, const char* figure) {
@@ -84,10 +130,10 @@ void addDetection(const VectorizedMetrics& detection, Resampling* resampling) {
     }
     frames.push_back(detection.frameClassifications(i));
   }
-  ResampledPrecision resampled(detection.ranking());
   resampling->addOfMany(
       detection.frames(), std::move(names),
-      [&](const std::vector<std::vector<std::uint32_t>>& resamples) {
+      [frames = std::move(frames), resampled = ResampledPrecision(detection.ranking())](
+          const std::vector<std::vector<std::uint32_t>>& resamples) mutable {
         const auto precisions = resampled.averagePrecisions(resamples);
         std::vector<std::vector<double>> rows(resamples.size());
         for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -127,19 +173,22 @@ void addHeatmap(const Report& report, Resampling* resampling) {
     names.push_back(named("heatmap", "average_precision"));
     names.push_back(named("heatmap", "max_f_score"));
   }
-  resampling->add(count, std::move(names), [&](const std::vector<std::uint32_t>& weights) {
-    std::vector<Classification> sums;
-    std::vector<double> figures;
-    for (const std::vector<Classification>& counts : frames) {
-      sums.push_back(evolin::weightedSum(counts, weights));
-      appendRatios(sums.back(), &figures);
-    }
-    if (!thresholds.empty()) {
-      const HeatmapSummary summary = summarizeHeatmap(sums);
-      figures.insert(figures.end(), {summary.average_precision, summary.max_f_score});
-    }
-    return figures;
-  });
+  const bool has_thresholds = !thresholds.empty();
+  resampling->add(
+      count, std::move(names),
+      [has_thresholds, frames = std::move(frames)](const std::vector<std::uint32_t>& weights) {
+        std::vector<Classification> sums;
+        std::vector<double> figures;
+        for (const std::vector<Classification>& counts : frames) {
+          sums.push_back(evolin::weightedSum(counts, weights));
+          appendRatios(sums.back(), &figures);
+        }
+        if (has_thresholds) {
+          const HeatmapSummary summary = summarizeHeatmap(sums);
+          figures.insert(figures.end(), {summary.average_precision, summary.max_f_score});
+        }
+        return figures;
+      });
 }
 
 void addAssociations(const Report& report, Resampling* resampling) {
@@ -151,14 +200,15 @@ void addAssociations(const Report& report, Resampling* resampling) {
   for (const PairRecord& record : report.pair_records) {
     pairs.push_back(record.counts);
   }
-  resampling->add(pairs.size(), names_of("association"),
-                  [&](const std::vector<std::uint32_t>& weights) {
+  const std::size_t count = pairs.size();
+  resampling->add(count, names_of("association"),
+                  [pairs = std::move(pairs)](const std::vector<std::uint32_t>& weights) {
                     std::vector<double> figures;
                     appendRatios(evolin::weightedSum(pairs, weights), &figures);
                     return figures;
                   });
   resampling->add(report.detected_pair_records.size(), names_of("association_detected"),
-                  [&](const std::vector<std::uint32_t>& weights) {
+                  [&report](const std::vector<std::uint32_t>& weights) {
                     std::vector<double> figures;
                     appendRatios(weightedSum(report.detected_pair_records, weights), &figures);
                     return figures;
@@ -198,10 +248,12 @@ void addRepeatability(const Report& report, Resampling* resampling) {
       name.threshold = setting.distance_threshold;
       name.score_threshold = setting.score_threshold;
     }
-    resampling->add(pairs.size(), std::move(names), [&](const std::vector<std::uint32_t>& weights) {
-      const RepeatabilityFigures figures = weightedFigures(pairs, weights, report.protocol);
-      return std::vector<double>{figures.repeatability, figures.localization_error};
-    });
+    resampling->add(pairs.size(), std::move(names),
+                    [resampled = ResampledRepeatability(pairs, report.protocol)](
+                        const std::vector<std::uint32_t>& weights) {
+                      const RepeatabilityFigures figures = resampled.figures(weights);
+                      return std::vector<double>{figures.repeatability, figures.localization_error};
+                    });
   }
 }
 
@@ -214,8 +266,8 @@ void addPose(const Report& report, Resampling* resampling) {
       errors.pairs(),
       {named("pose", "rotation_median_deg"), named("pose", "translation_angle_median_deg"),
        named("pose", "translation_median_m")},
-      [&](const std::vector<std::uint32_t>& weights) {
-        const PoseErrors medians = errors.medians(weights);
+      [resampled = errors.resampled()](const std::vector<std::uint32_t>& weights) {
+        const PoseErrors medians = resampled.medians(weights);
         return std::vector<double>{medians.rotation, medians.translation_angle,
                                    medians.translation};
       });
@@ -227,7 +279,7 @@ void addConfidence(const VectorizedMetrics& detection, const BootstrapOptions& o
                    Report* report) {
   ReportConfidence confidence;
   confidence.options = options;
-  Resampling resampling(options, &confidence);
+  Resampling resampling(options);
   const auto wants = [report](MetricFamily family) { return report->families.count(family) != 0; };
   if (wants(MetricFamily::kDetection)) {
     addDetection(detection, &resampling);
@@ -244,6 +296,7 @@ void addConfidence(const VectorizedMetrics& detection, const BootstrapOptions& o
   if (wants(MetricFamily::kPose)) {
     addPose(*report, &resampling);
   }
+  confidence.figures = resampling.run();
   report->confidence = std::move(confidence);
 }
 

@@ -36,16 +36,28 @@ void validate(std::size_t frames, const BootstrapOptions& options) {
   }
 }
 
-/// Uniform in [0, count). The standard's distributions differ from library to library.
-std::size_t draw(std::mt19937_64* generator, std::size_t count) {
-  constexpr std::uint64_t kLargest = std::mt19937_64::max();
-  const std::uint64_t excess = (kLargest % count + 1) % count;
-  std::uint64_t value = (*generator)();
-  while (value > kLargest - excess) {
-    value = (*generator)();
+/// Frames at random. The standard's distributions differ from library to library.
+class FrameDraw {
+ public:
+  FrameDraw(std::size_t frames, std::uint64_t seed)
+      : generator_(seed), frames_(frames), last_(kLargest - (kLargest % frames + 1) % frames) {}
+
+  /// Uniform in [0, frames).
+  std::size_t operator()() {
+    std::uint64_t value = generator_();
+    while (value > last_) {
+      value = generator_();
+    }
+    return static_cast<std::size_t>(value % frames_);
   }
-  return static_cast<std::size_t>(value % count);
-}
+
+ private:
+  static constexpr std::uint64_t kLargest = std::mt19937_64::max();
+
+  std::mt19937_64 generator_;
+  std::uint64_t frames_;
+  std::uint64_t last_;  ///< number below which every frame has the same share
+};
 
 std::size_t automaticBlockLength(std::size_t frames) {
   std::size_t length = 1;
@@ -55,12 +67,11 @@ std::size_t automaticBlockLength(std::size_t frames) {
   return length;
 }
 
-/// How often each frame occurs in a row of blocks.
-std::vector<std::uint32_t> drawWeights(std::size_t frames, std::size_t block,
-                                       std::mt19937_64* generator) {
+/// How often each of `frames` occurs in a row of blocks.
+std::vector<std::uint32_t> drawWeights(std::size_t frames, std::size_t block, FrameDraw* draw) {
   std::vector<std::uint32_t> weights(frames, 0);
   for (std::size_t drawn = 0; drawn < frames; drawn += block) {
-    std::size_t frame = draw(generator, frames);
+    std::size_t frame = (*draw)();
     const std::size_t length = std::min(block, frames - drawn);
     for (std::size_t i = 0; i < length; ++i) {
       ++weights[frame];
@@ -70,12 +81,14 @@ std::vector<std::uint32_t> drawWeights(std::size_t frames, std::size_t block,
   return weights;
 }
 
-/// `values` sorted and not empty.
-double percentile(const std::vector<double>& values, double fraction) {
-  const double position = fraction * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(std::floor(position));
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (position - std::floor(position)) * (values[above] - values[below]);
+/// `values` not empty, in any order; left in another.
+double percentile(std::vector<double>* values, double fraction) {
+  const double position = fraction * static_cast<double>(values->size() - 1);
+  const auto at = values->begin() + static_cast<std::ptrdiff_t>(std::floor(position));
+  std::nth_element(values->begin(), at, values->end());
+  const double below = *at;
+  const double above = at + 1 == values->end() ? below : *std::min_element(at + 1, values->end());
+  return below + (position - std::floor(position)) * (above - below);
 }
 
 }  // namespace
@@ -98,13 +111,13 @@ std::vector<ConfidenceInterval> blockBootstrapOfMany(std::size_t frames,
   const std::size_t block = options.block_length > 0
                                 ? static_cast<std::size_t>(options.block_length)
                                 : automaticBlockLength(frames);
-  std::mt19937_64 generator(options.seed);
+  FrameDraw draw(frames, options.seed);
   std::vector<std::vector<double>> samples;  // by figure
   for (int begin = 0; begin < options.resamples; begin += kResamplesAtOnce) {
     std::vector<std::vector<std::uint32_t>> resamples(
         static_cast<std::size_t>(std::min(kResamplesAtOnce, options.resamples - begin)));
     for (std::vector<std::uint32_t>& weights : resamples) {
-      weights = drawWeights(frames, block, &generator);
+      weights = drawWeights(frames, block, &draw);
     }
     for (const std::vector<double>& values : figures(resamples)) {
       samples.resize(values.size());
@@ -122,9 +135,8 @@ std::vector<ConfidenceInterval> blockBootstrapOfMany(std::size_t frames,
     ConfidenceInterval interval{options.level, std::numeric_limits<double>::quiet_NaN(),
                                 std::numeric_limits<double>::quiet_NaN()};
     if (!values.empty()) {
-      std::sort(values.begin(), values.end());
-      interval.low = percentile(values, tail);
-      interval.high = percentile(values, 1 - tail);
+      interval.low = percentile(&values, tail);
+      interval.high = percentile(&values, 1 - tail);
     }
     intervals.push_back(interval);
   }

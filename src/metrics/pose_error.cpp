@@ -8,13 +8,13 @@
 
 #include "evolin_ros/base/error.h"
 #include "evolin_ros/base/text.h"
+#include "evolin_ros/metrics/resampled_pose_errors.h"
 
 namespace evolin {
 
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double degrees(double radians) { return radians * 180 / kPi; }
@@ -35,30 +35,6 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return a_moves == b_moves ? 0 : kPi / 2;
   }
   return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// Of sorted values, each occurring as often as its weight says; NaN for none.
-double weightedMedian(std::vector<std::pair<double, std::uint64_t>> values) {
-  std::sort(values.begin(), values.end());
-  std::uint64_t total = 0;
-  for (const auto& [value, weight] : values) {
-    total += weight;
-  }
-  if (total == 0) {
-    return kNan;
-  }
-  const auto at = [&values](std::uint64_t place) {
-    for (const auto& [value, weight] : values) {
-      if (place < weight) {
-        return value;
-      }
-      place -= weight;
-    }
-    return values.back().first;
-  };
-  const double low = at((total - 1) / 2);
-  const double high = at(total / 2);
-  return low == high ? low : (low + high) / 2;  // also where both are infinite
 }
 
 void require(const std::string& key, double value) {
@@ -154,22 +130,10 @@ PoseErrors PoseErrorMetrics::medians() const {
 }
 
 PoseErrors PoseErrorMetrics::medians(const std::vector<std::uint32_t>& weights) const {
-  if (weights.size() != pairs_.size()) {
-    throw Error("pose error: " + std::to_string(weights.size()) + " weights, expected " +
-                std::to_string(pairs_.size()) + ", one a pair");
-  }
-  const auto median = [&](double PoseErrors::*error) {
-    std::vector<std::pair<double, std::uint64_t>> values;
-    values.reserve(pairs_.size());
-    for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
-      const auto& errors = pairs_[pair].errors;
-      values.emplace_back(errors ? (*errors).*error : kInfinity, weights[pair]);
-    }
-    return weightedMedian(std::move(values));
-  };
-  return {median(&PoseErrors::rotation), median(&PoseErrors::translation_angle),
-          median(&PoseErrors::translation)};
+  return resampled().medians(weights);
 }
+
+ResampledPoseErrors PoseErrorMetrics::resampled() const { return ResampledPoseErrors(pairs_); }
 
 ErrorStatistics PoseErrorMetrics::rotationStatistics() const {
   return statistics(&PoseErrors::rotation);

@@ -167,28 +167,6 @@ std::optional<RepeatabilityFigures> RepeatabilitySum::figures(Protocol protocol)
       parts == 0 ? 0.0 : localization_error_.value() / static_cast<double>(parts)};
 }
 
-RepeatabilityFigures weightedFigures(const std::vector<PairRepeatability>& pairs,
-                                     const std::vector<std::uint32_t>& weights, Protocol protocol) {
-  double total = 0;
-  double redetections = 0;
-  double repeatability = 0;
-  double error = 0;
-  for (std::size_t index = 0; index < pairs.size(); ++index) {
-    const PairRepeatability& pair = pairs[index];
-    const double weight = weights[index];
-    total += weight;
-    repeatability += weight * pair.repeatability();
-    if (protocol == Protocol::kEvolin) {
-      redetections += weight;
-      error += weight * pair.localizationError(protocol);
-    } else {
-      redetections += weight * (static_cast<double>(pair.forward.count) + pair.backward.count);
-      error += weight * (pair.forward.distance_sum + pair.backward.distance_sum);
-    }
-  }
-  return {repeatability / total, redetections == 0 ? 0.0 : error / redetections};
-}
-
 RepeatabilityMetrics::RepeatabilityMetrics(RepeatabilityOptions options)
     : options_(std::move(options)) {
   checkOptions(options_);

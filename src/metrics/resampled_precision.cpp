@@ -2,6 +2,7 @@
 #include "evolin_ros/metrics/resampled_precision.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -48,9 +49,9 @@ ResampledPrecision::Size ResampledPrecision::sizeOf(
 }
 
 std::vector<std::optional<double>> ResampledPrecision::precisionsOf(
-    const std::vector<std::uint32_t>& weights, const double* losses, const double* misses) const {
+    const std::vector<std::uint32_t>& weights, const Size& size, const double* losses,
+    const double* misses) const {
   std::vector<std::optional<double>> result(settings_);
-  const Size size = sizeOf(weights);
   if (size.lines == 0 || size.predictions == 0) {
     return result;
   }
@@ -85,6 +86,7 @@ std::vector<std::vector<std::optional<double>>> ResampledPrecision::averagePreci
   std::vector<std::int32_t> weights(ground_truth_.size() * kAreaLanes);
   std::vector<double> losses(settings_ * kAreaLanes);
   std::vector<double> misses(settings_ * kAreaLanes);
+  std::array<Size, kAreaLanes> sizes;
   std::vector<std::vector<std::optional<double>>> result;
   result.reserve(resamples.size());
   for (std::size_t begin = 0; begin < resamples.size(); begin += kAreaLanes) {
@@ -92,15 +94,16 @@ std::vector<std::vector<std::optional<double>>> ResampledPrecision::averagePreci
     std::fill(weights.begin(), weights.end(), 0);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const std::vector<std::uint32_t>& resample = resamples[begin + lane];
-      extendSteps(sizeOf(resample).predictions);
+      sizes[lane] = sizeOf(resample);
+      extendSteps(sizes[lane].predictions);
       for (std::size_t frame = 0; frame < resample.size(); ++frame) {
         weights[frame * kAreaLanes + lane] = static_cast<std::int32_t>(resample[frame]);
       }
     }
     resampleAreas(ranked, weights.data(), steps_.data(), losses.data(), misses.data());
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      result.push_back(
-          precisionsOf(resamples[begin + lane], losses.data() + lane, misses.data() + lane));
+      result.push_back(precisionsOf(resamples[begin + lane], sizes[lane], losses.data() + lane,
+                                    misses.data() + lane));
     }
   }
   return result;

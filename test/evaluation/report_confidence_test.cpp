@@ -78,6 +78,35 @@ TEST(AddConfidence, PutsTheFiguresIntoTheirIntervals) {
   EXPECT_EQ(find(report, "repeatability", "repeatability"), nullptr);
 }
 
+TEST(AddConfidence, DrawsForEveryFamilyAsIfItWereAlone) {
+  const Report report = reportOf(20, resamples(100));
+  const auto expectRecallOf = [&](const std::string& family,
+                                  const std::vector<Classification>& counts) {
+    const ConfidenceInterval alone = blockBootstrap(
+        counts.size(), resamples(100), [&counts](const std::vector<std::uint32_t>& weights) {
+          return std::vector<double>{weightedSum(counts, weights).recall()};
+        })[0];
+    EXPECT_LT(alone.low, alone.high) << family;
+    EXPECT_EQ(find(report, family, "recall")->interval.low, alone.low) << family;
+    EXPECT_EQ(find(report, family, "recall")->interval.high, alone.high) << family;
+  };
+  std::vector<Classification> detection;
+  std::vector<Classification> heatmap;
+  for (const FrameRecord& frame : report.frames) {
+    detection.push_back(frame.entries.at(0).counts);
+    heatmap.push_back(frame.heatmap.at(0));
+  }
+  std::vector<Classification> association;
+  for (const PairRecord& pair : report.pair_records) {
+    association.push_back(pair.counts);
+  }
+  ASSERT_EQ(detection.size(), 20U) << "as many as of the heatmap";
+  ASSERT_EQ(association.size(), 19U);
+  expectRecallOf("detection", detection);
+  expectRecallOf("heatmap", heatmap);
+  expectRecallOf("association", association);
+}
+
 TEST(AddConfidence, OfOneFrameIsThatFramesFigure) {
   BootstrapOptions options = resamples(10);
   options.block_length = 7;

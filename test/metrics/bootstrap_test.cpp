@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -110,6 +111,33 @@ TEST(BlockBootstrap, LongerBlocksWidenTheIntervalOfSlowlyChangingFrames) {
   options.block_length = 20;
   const ConfidenceInterval wide = blockBootstrap(100, options, meanOf(values))[0];
   EXPECT_GT(wide.high - wide.low, 2 * (narrow.high - narrow.low));
+}
+
+TEST(BlockBootstrap, PercentilesLieBetweenNeighboursOfTheSortedFigures) {
+  test::RandomLines random(6);
+  for (const int count : {1, 2, 40, 1000}) {
+    for (const double level : {0.02, 0.5, 0.95, 0.9999}) {
+      BootstrapOptions options;
+      options.resamples = count;
+      options.level = level;
+      std::vector<double> figures;
+      const auto intervals =
+          blockBootstrap(3, options, [&](const std::vector<std::uint32_t>& /*weights*/) {
+            figures.push_back(random.uniform(0, 1));
+            return std::vector<double>{figures.back()};
+          });
+      std::sort(figures.begin(), figures.end());
+      const auto percentile = [&figures](double fraction) {
+        const double position = fraction * static_cast<double>(figures.size() - 1);
+        const auto below = static_cast<std::size_t>(position);
+        const double next = figures[std::min(below + 1, figures.size() - 1)];
+        return figures[below] + (position - std::floor(position)) * (next - figures[below]);
+      };
+      EXPECT_DOUBLE_EQ(intervals[0].low, percentile((1 - level) / 2)) << count << ", " << level;
+      EXPECT_DOUBLE_EQ(intervals[0].high, percentile(1 - (1 - level) / 2))
+          << count << ", " << level;
+    }
+  }
 }
 
 TEST(BlockBootstrap, UndefinedResamplesDoNotCount) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "evolin_ros/metrics/repeatability.h"
+#include "evolin_ros/metrics/resampled_repeatability.h"
 #include "test/metrics/spatial_support.h"
 #include "test/support/expect_error.h"
 #include "test/support/random_lines.h"
@@ -293,7 +294,7 @@ TEST(RepeatabilityProperties, WeightsCountPairsSeveralTimes) {
         sum.add(pairs.back(), protocol);
       }
     }
-    const RepeatabilityFigures weighted = weightedFigures(pairs, weights, protocol);
+    const RepeatabilityFigures weighted = ResampledRepeatability(pairs, protocol).figures(weights);
     EXPECT_NEAR(weighted.repeatability, sum.figures(protocol)->repeatability, 1e-12);
     EXPECT_NEAR(weighted.localization_error, sum.figures(protocol)->localization_error, 1e-12);
     EXPECT_GT(weighted.localization_error, 0);

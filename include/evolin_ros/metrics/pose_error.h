@@ -65,6 +65,8 @@ enum class AngleRule {
   kLarger,   ///< the larger of them, as elsewhere
 };
 
+class ResampledPoseErrors;
+
 /// An accumulator over pairs of frames: add in any order, read at any time, merge, reset. Figures
 /// do not depend on the order, to the last bit. 40 bytes a pair.
 class PoseErrorMetrics {
@@ -91,6 +93,9 @@ class PoseErrorMetrics {
 
   /// The same with pair p, in order of addition, occurring weights[p] times.
   PoseErrors medians(const std::vector<std::uint32_t>& weights) const;
+
+  /// For medians with many weights.
+  ResampledPoseErrors resampled() const;
 
   ErrorStatistics rotationStatistics() const;
   ErrorStatistics translationAngleStatistics() const;

@@ -79,11 +79,6 @@ class RepeatabilitySum {
   ExactSum localization_error_;  ///< kEvolin: of pairs; kPaper: of distances
 };
 
-/// Figures of a sequence in which pair p occurs weights[p] times (at least one of them does), for
-/// resampling. The sizes are equal.
-RepeatabilityFigures weightedFigures(const std::vector<PairRepeatability>& pairs,
-                                     const std::vector<std::uint32_t>& weights, Protocol protocol);
-
 /// An accumulator over pairs of frames: add in any order, read at any time, merge, reset. It keeps
 /// a few sums a setting, whatever the number of pairs.
 class RepeatabilityMetrics {

@@ -33,7 +33,8 @@ class ResampledPrecision {
   Size sizeOf(const std::vector<std::uint32_t>& weights) const;
   /// From the sums of one resample's lane.
   std::vector<std::optional<double>> precisionsOf(const std::vector<std::uint32_t>& weights,
-                                                  const double* losses, const double* misses) const;
+                                                  const Size& size, const double* losses,
+                                                  const double* misses) const;
   void extendSteps(std::size_t predictions);
 
   Protocol protocol_;
