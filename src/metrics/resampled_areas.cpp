@@ -1,4 +1,4 @@
-// The loop for any processor, and the choice between it and the wide one.
+// The loop for any processor, and the choice between it and the wider ones.
 #include "resampled_areas.h"
 
 #include <opencv2/core/utility.hpp>
@@ -18,8 +18,10 @@ void resampleAreas(const RankedRuns& ranked, const std::int32_t* weights, const 
 
 void resampleAreas(const RankedRuns& ranked, const std::int32_t* weights, const double* steps,
                    double* losses, double* misses) {
-  static const bool has_wide = cv::checkHardwareSupport(CV_CPU_AVX2);
-  (has_wide ? wide::resampleAreas : generic::resampleAreas)(ranked, weights, steps, losses, misses);
+  static const auto best = cv::checkHardwareSupport(CV_CPU_AVX512_SKX) ? widest::resampleAreas
+                           : cv::checkHardwareSupport(CV_CPU_AVX2)     ? wide::resampleAreas
+                                                                       : generic::resampleAreas;
+  best(ranked, weights, steps, losses, misses);
 }
 
 }  // namespace evolin

@@ -45,5 +45,10 @@ namespace wide {
 void resampleAreas(const RankedRuns& ranked, const std::int32_t* weights, const double* steps,
                    double* losses, double* misses);
 }
+/// For processors with AVX-512 (F, DQ, BW, VL) alone, where there are such.
+namespace widest {
+void resampleAreas(const RankedRuns& ranked, const std::int32_t* weights, const double* steps,
+                   double* losses, double* misses);
+}
 
 }  // namespace evolin
