@@ -23,6 +23,7 @@
 #include "evolin_ros/dataset/camera_file.h"
 #include "evolin_ros/dataset/evolin_writer.h"
 #include "image_bytes.h"
+#include "image_pool.h"
 #include "pose_source.h"
 #include "topics.h"
 
@@ -196,7 +197,8 @@ class BagParts : public PartReader {
         const auto image = message.read<shell::ImageBytes>();
         header = image->header;
         part.frame.stamp = shell::fromRos(header.stamp);
-        part.frame.image = shell::copyPixels(*image);
+        part.frame.image = shell::copyPixels(*image, image_pool_.take());
+        image_pool_.keep(part.frame.image);
         if (part.frame.image.empty()) {
           part.frame = shell::toFrame(message.read<sensor_msgs::Image>());
         }
@@ -226,7 +228,8 @@ class BagParts : public PartReader {
       take(depth, shell::toDepthMap(*depth, options_.depth_factor));
     } else {
       const auto depth = message.read<shell::ImageBytes>();
-      cv::Mat stored = shell::copyDepth(*depth);
+      cv::Mat stored = shell::copyDepth(*depth, depth_pool_.take());
+      depth_pool_.keep(stored);
       take(depth, stored.empty()
                       ? shell::toDepthMap(message.read<sensor_msgs::Image>(), options_.depth_factor)
                       : DepthMap(std::move(stored), options_.depth_factor));
@@ -297,6 +300,8 @@ class BagParts : public PartReader {
   bool camera_told_ = false;
   std::size_t images_read_ = 0;
   std::deque<StreamPart> parts_;
+  shell::ImagePool image_pool_;
+  shell::ImagePool depth_pool_;
   std::vector<std::string> notes_;
   std::set<std::string> told_;
   std::size_t notes_left_out_ = 0;

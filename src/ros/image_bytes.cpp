@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace evolin::ros_shell {
 
@@ -21,8 +22,8 @@ bool fits(const ImageBytes& image, int type) {
          image.height < kLongestSide && image.step >= row && image.size == all;
 }
 
-cv::Mat copyRows(const ImageBytes& image, int type) {
-  cv::Mat copy(static_cast<int>(image.height), static_cast<int>(image.width), type);
+cv::Mat copyRows(const ImageBytes& image, int type, cv::Mat copy) {
+  copy.create(static_cast<int>(image.height), static_cast<int>(image.width), type);
   const std::size_t row_size = image.width * copy.elemSize();
   if (image.step == row_size) {
     std::memcpy(copy.data, image.data, image.size);
@@ -36,34 +37,33 @@ cv::Mat copyRows(const ImageBytes& image, int type) {
 
 }  // namespace
 
-cv::Mat copyPixels(const ImageBytes& image) {
+cv::Mat copyPixels(const ImageBytes& image, cv::Mat memory) {
   const std::string& encoding = image.encoding;
   if ((encoding == encodings::MONO8 || encoding == encodings::TYPE_8UC1) && fits(image, CV_8UC1)) {
-    return copyRows(image, CV_8UC1);
+    return copyRows(image, CV_8UC1, std::move(memory));
   }
   if (encoding == encodings::BGR8 && fits(image, CV_8UC3)) {
-    return copyRows(image, CV_8UC3);
+    return copyRows(image, CV_8UC3, std::move(memory));
   }
   if (encoding == encodings::RGB8 && fits(image, CV_8UC3)) {
     const cv::Mat stored(static_cast<int>(image.height), static_cast<int>(image.width), CV_8UC3,
                          const_cast<std::uint8_t*>(image.data), image.step);
-    cv::Mat swapped;
-    cv::cvtColor(stored, swapped, cv::COLOR_RGB2BGR);
-    return swapped;
+    cv::cvtColor(stored, memory, cv::COLOR_RGB2BGR);
+    return memory;
   }
   return {};
 }
 
-cv::Mat copyDepth(const ImageBytes& image) {
+cv::Mat copyDepth(const ImageBytes& image, cv::Mat memory) {
   if (image.is_bigendian != 0) {
     return {};
   }
   if (image.encoding == encodings::TYPE_32FC1 && fits(image, CV_32FC1)) {
-    return copyRows(image, CV_32FC1);
+    return copyRows(image, CV_32FC1, std::move(memory));
   }
   if ((image.encoding == encodings::TYPE_16UC1 || image.encoding == encodings::MONO16) &&
       fits(image, CV_16UC1)) {
-    return copyRows(image, CV_16UC1);
+    return copyRows(image, CV_16UC1, std::move(memory));
   }
   return {};
 }

@@ -26,11 +26,11 @@ struct ImageBytes {
 
 /// A copy of the pixels as toFrame() has them, CV_8UC1 or BGR CV_8UC3; empty for an image that
 /// takes cv_bridge (a rare encoding, or nothing that an image can be), which then says what is
-/// wrong with it.
-cv::Mat copyPixels(const ImageBytes& image);
+/// wrong with it. It is made in `memory` where that has the size: nobody else may hold it.
+cv::Mat copyPixels(const ImageBytes& image, cv::Mat memory = {});
 
 /// The same of depth: CV_16UC1 or CV_32FC1 as stored.
-cv::Mat copyDepth(const ImageBytes& image);
+cv::Mat copyDepth(const ImageBytes& image, cv::Mat memory = {});
 
 }  // namespace evolin::ros_shell
 
