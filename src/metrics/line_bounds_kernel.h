@@ -48,14 +48,14 @@ class BoundLoops {
   static BoundCounts findCandidates(const BlockedLines lines, const BoundQuestion question,
                                     const BoundSpace space) {
     // The whole line counts without the overlap, so that every block may matter.
-    constexpr bool every = isOrthogonal(kind) && !isOverlapping(kind);
+    constexpr bool kEvery = isOrthogonal(kind) && !isOverlapping(kind);
     const std::size_t count =
-        every ? lines.blocks_count : findBlocks<kind>(lines, question, space.blocks);
-    const auto blockAt = [&](std::size_t i) { return every ? i : space.blocks[i]; };
+        kEvery ? lines.blocks_count : findBlocks<kind>(lines, question, space.blocks);
+    const auto block_at = [&](std::size_t i) { return kEvery ? i : space.blocks[i]; };
     Float lowest_structural = Float{} + __builtin_inff();
     Float lowest_orthogonal = lowest_structural;
     for (std::size_t i = 0; i < count; ++i) {
-      const LineBlock& block = lines.blocks[blockAt(i)];
+      const LineBlock& block = lines.blocks[block_at(i)];
       for (std::size_t lane = 0; lane < kBlockLines; lane += kWidth) {
         const std::size_t place = i * kBlockLines + lane;
         if constexpr (isStructural(kind)) {
@@ -77,7 +77,7 @@ class BoundLoops {
         const unsigned bits =
             bitsOf([&](std::size_t lane) { return load(bounds + lane) <= limit; });
         if (bits != 0) {  // so it is of few blocks
-          const auto first = static_cast<std::uint32_t>(blockAt(i) * kBlockLines);
+          const auto first = static_cast<std::uint32_t>(block_at(i) * kBlockLines);
           found += Vectors::writePlaces(bits, first, answer.places + found);
         }
       }

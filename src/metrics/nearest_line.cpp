@@ -30,10 +30,10 @@ NearestLines NearestLineSearch::findBoth(const LineSegment& query, double reach,
 NearestLines NearestLineSearch::findNearest(const NearQuestion& question,
                                             const LineSegment& query) {
   const NearLines::Answer candidates = near_.find(query, question);
-  const auto nearestOf = [&](const NearLines::Rows& rows, const auto& distanceTo) {
+  const auto nearest_of = [&](const NearLines::Rows& rows, const auto& distance_to) {
     NearestLine nearest;
     for (const std::uint32_t row : rows) {
-      const double exact = distanceTo(lines_[row]);
+      const double exact = distance_to(lines_[row]);
       if (exact <= question.reach &&
           (exact < nearest.distance || (exact == nearest.distance && row < nearest.row))) {
         nearest = {row, exact};
@@ -42,10 +42,11 @@ NearestLines NearestLineSearch::findNearest(const NearQuestion& question,
     return nearest;
   };
   const bool gate = question.min_overlap > 0;
-  return {nearestOf(candidates.orthogonal,
-                    [&](const LineSegment& line) { return orthogonalDistance(query, line, gate); }),
-          nearestOf(candidates.structural,
-                    [&](const LineSegment& line) { return structuralDistance(query, line); })};
+  return {
+      nearest_of(candidates.orthogonal,
+                 [&](const LineSegment& line) { return orthogonalDistance(query, line, gate); }),
+      nearest_of(candidates.structural,
+                 [&](const LineSegment& line) { return structuralDistance(query, line); })};
 }
 
 }  // namespace evolin

@@ -95,7 +95,7 @@ TEST(ProjectedPair, MetricsSayTheSameOfAPairThatTheyShare) {
         BestLocalizationOptions best;
         best.distance = distance;
         best.count = 60;
-        const auto expectBest = [&] {
+        const auto expect_best = [&] {
           const PairBestLocalization expected =
               measureBestLocalization(views.first, views.second, best);
           const PairBestLocalization actual = measureBestLocalization(best, &pair);
@@ -104,7 +104,7 @@ TEST(ProjectedPair, MetricsSayTheSameOfAPairThatTheyShare) {
           EXPECT_GT(actual.mean_distance, 0);
         };
         if (best_first) {
-          expectBest();
+          expect_best();
         }
         for (const RepeatabilityOptions& each : {options, by_score}) {
           const RepeatabilityMetrics metrics(each);
@@ -119,7 +119,7 @@ TEST(ProjectedPair, MetricsSayTheSameOfAPairThatTheyShare) {
             EXPECT_EQ(actual[index].backward.distance_sum, expected[index].backward.distance_sum);
           }
         }
-        expectBest();
+        expect_best();
       }
       OneToOneRepeatability alone;
       OneToOneRepeatability shared;
