@@ -40,8 +40,9 @@ struct Side {
 
 TEST(OnlineStereo, EachCameraHasFiguresOfItsOwn) {
   const TemporaryFolder folder;
-  Process launch({"roslaunch", "evolin_ros", "stereo.launch", std::string("detector:=") + kDefaultDetector,
-                  "image:=image", "associated_lines:=ground_truth/lines", "lazy:=false",
+  Process launch({"roslaunch", "evolin_ros", "stereo.launch",
+                  std::string("detector:=") + kDefaultDetector, "image:=image",
+                  "associated_lines:=ground_truth/lines", "lazy:=false",
                   "output_dir:=" + folder.path().string(), "output:=log"});
   Side left("left");
   Side right("right");
